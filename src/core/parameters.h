@@ -1,0 +1,48 @@
+// The two structs that every pass reads, expanded from params.inl and constants.inl. They are copied byte by byte
+// into uniform buffers: WGSL declares the same fields in the same order (weir_wgsl_structs).
+#pragma once
+
+#include <stdalign.h>
+#include <stddef.h>
+
+#include "core/message.h"
+#include "weir/weir.h"
+
+typedef struct WeirParameters {
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, live, help) alignas(16) float name[4];
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, live, help)   float name;
+#define WEIR_CHOICE(name, names, value, live, help)                    uint32_t name;
+#include "core/params.inl"
+} WeirParameters;
+
+typedef struct WeirConstants {
+#define WEIR_CONSTANT_VECTOR(name, help) alignas(16) float name[4];
+#define WEIR_CONSTANT_NUMBER(name, help) float name;
+#define WEIR_CONSTANT_COUNT(name, help)  uint32_t name;
+#include "core/constants.inl"
+} WeirConstants;
+
+// The values of the choices in params.inl, by index.
+enum { WEIR_KERNELS_CONSISTENT, WEIR_KERNELS_TUTORIAL };
+enum { WEIR_SEARCH_GRID, WEIR_SEARCH_ALL_PAIRS };
+
+// WGSL text of `struct Parameters` and `struct Constants`, prepended to every shader.
+extern const char weir_wgsl_structs[];
+
+void weir_parameters_default(WeirParameters *parameters);
+// Index of a parameter in the list, -1 if there is none of that name.
+int weir_parameter_find(const char *name);
+// Values as numbers: 1, 3 for a vector, the index of a choice. Returns how many.
+uint32_t weir_parameter_get(const WeirParameters *parameters, uint32_t index, double values[3]);
+// Checks and sets; `path` is the name that messages use. A vector takes 2 or 3 numbers.
+WeirStatus weir_parameter_set(WeirParameters *parameters, uint32_t index, const char *path,
+                              const double *values, size_t count, WeirMessage *message);
+WeirStatus weir_parameter_set_choice(WeirParameters *parameters, uint32_t index, const char *path,
+                                     const char *choice, WeirMessage *message);
+WeirStatus weir_parameter_set_text(WeirParameters *parameters, uint32_t index, const char *text,
+                                   WeirMessage *message);
+
+// Derives the constants of `mueller` from the parameters. `tool` NULL: none.
+void weir_constants_make(WeirConstants *constants, const WeirParameters *parameters, uint32_t dimension,
+                         const double domain_min[3], const double domain_max[3], uint32_t particle_count,
+                         const WeirTool *tool);
