@@ -1,0 +1,45 @@
+// Draws a simulation that runs on the GPU: every particle a round anti-aliased disc, coloured by a quantity.
+// All drawing reads the solver's own buffers; nothing is copied to the host. Link weir_render.
+#pragma once
+
+#include "weir/weir_gpu.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WeirRenderer WeirRenderer;
+
+typedef enum WeirColorBy {
+    WEIR_COLOR_SPEED,         // m/s
+    WEIR_COLOR_DENSITY,       // kg/m^3
+    WEIR_COLOR_DENSITY_ERROR, // (rho - rho0) / rho0
+    WEIR_COLOR_PRESSURE,      // Pa
+} WeirColorBy;
+
+// What one frame shows. Lengths in metres unless said otherwise.
+typedef struct WeirView {
+    WeirColorBy color_by;
+    float color_min, color_max; // values at the two ends of the colour map, clamped beyond
+    float center[2];            // point of the domain in the middle of the picture
+    float pixels_per_meter;     // of the target's own (device) pixels
+    float particle_radius;      // drawn radius of a particle; at least 0.5 pixels are drawn
+    float tool_position[2];     // the pointer tool's ring
+    float tool_radius;          // 0: no ring
+    float tool_pressed;         // 0 to 1: the ring is brighter while the tool acts
+} WeirView;
+
+// Makes the pipelines for a colour target of `format`, a WGPUTextureFormat. NULL only if memory runs out; faults
+// of the shaders show in weir_gpu_poll().
+WeirRenderer *weir_renderer_create(WeirGpu *gpu, uint32_t format);
+void weir_renderer_destroy(WeirRenderer *renderer); // NULL is allowed
+// Queues one frame into `target`, a WGPUTextureView of width x height pixels. WEIR_ERROR_INPUT if `sim` does not
+// run on the renderer's device.
+WeirStatus weir_renderer_draw(WeirRenderer *renderer, WeirSim *sim, const WeirView *view, void *target,
+                              uint32_t width, uint32_t height);
+// sRGB bytes of the colour map at `t` in 0..1, the same as the shader's: for legends and the CPU fallback.
+void weir_color_map(WeirColorBy color_by, float t, uint8_t rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
