@@ -1,5 +1,5 @@
-// The two structs that every pass reads, expanded from params.inl and constants.inl. They are copied byte by byte
-// into uniform buffers: WGSL declares the same fields in the same order (weir_wgsl_structs).
+// The two structs that every pass reads, expanded from params.inl and constants.inl. They are copied byte by
+// byte into uniform buffers: WGSL declares the same fields in the same order (weir_wgsl_structs).
 #pragma once
 
 #include <stdalign.h>
@@ -46,3 +46,5 @@ WeirStatus weir_parameter_set_text(WeirParameters *parameters, uint32_t index, c
 void weir_constants_make(WeirConstants *constants, const WeirParameters *parameters, uint32_t dimension,
                          const double domain_min[3], const double domain_max[3], uint32_t particle_count,
                          const WeirTool *tool);
+// Replaces the tool alone. `tool` NULL: none.
+void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool);

@@ -1,4 +1,5 @@
-// A scene's fields, as the solvers' side of the core sees them. Built through weir.h only (scene.c, scene_path.c).
+// A scene's fields, as the solvers' side of the core sees them. Built through weir.h only (scene.c,
+// scene_path.c).
 #pragma once
 
 #include "core/parameters.h"
@@ -29,8 +30,9 @@ struct WeirScene {
 // Most particles that a scene may make: ids and cell starts are 32-bit, and a state must fit the host.
 enum { WEIR_MAX_PARTICLES = 1 << 28 };
 
-// The scene's particles on their lattice, in order of fluid, row, column: the id is the index. Arrays of 2 floats
-// per particle, from malloc. Positions are computed in double and rounded once, so every target gets equal bits.
+// The scene's particles on their lattice, in order of fluid, row, column: the id is the index. Arrays of 2
+// floats per particle, from malloc. Positions are computed in double and rounded once, so every target gets
+// equal bits.
 typedef struct WeirParticles {
     uint32_t count;
     float *position, *velocity;

@@ -1,0 +1,38 @@
+// The uniform grid of the neighbour search, shared by CPU and GPU through WeirConstants.
+//
+//   row r:  | | | | |x| | | | |     cells are one search radius high and a quarter as wide, rows are stored
+//   one
+//           |<-- run of cells -->|   after the other: the neighbours of a particle lie in 3 contiguous runs
+//
+// A counting sort of the whole particle data (count, scan, scatter) puts each cell's particles side by side,
+// in order of their ids, so that sums have one order whatever the thread count.
+#pragma once
+
+#include "core/parameters.h"
+
+// Cells per search radius along x: finer cells trim the runs (measured: docs/performance.md).
+enum { WEIR_CELLS_PER_RADIUS = 4 };
+
+// Fills cell counts and inverse cell sizes. Cells grow where the domain is so large that they would outnumber
+// the particles by far; the search stays correct, only less selective.
+void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3]);
+
+// Cell column and row of a coordinate, clamped into the grid.
+static inline uint32_t weir_grid_clamp(float cells, uint32_t count)
+{
+    // NaN compares false and lands in cell 0.
+    if (!(cells > 0.0f)) return 0;
+    return cells < (float)count ? (uint32_t)cells : count - 1;
+}
+
+static inline uint32_t weir_grid_column(const WeirConstants *constants, float x)
+{
+    return weir_grid_clamp((x - constants->domain_min[0]) * constants->inverse_cell_width,
+                           constants->cell_columns);
+}
+
+static inline uint32_t weir_grid_row(const WeirConstants *constants, float y)
+{
+    return weir_grid_clamp((y - constants->domain_min[1]) * constants->inverse_cell_height,
+                           constants->cell_rows);
+}
