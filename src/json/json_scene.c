@@ -1,0 +1,175 @@
+// The walk: objects extend the path by ".key", lists of objects by "[index]"; numbers, texts and lists of
+// numbers are set; anything else is refused by the core, which knows what the path should hold.
+#include "json/json_scene.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MAX_FILE_SIZE = 1 << 20, // a scene is a page of text; a larger file is not a scene
+    MAX_PATH = 256,
+    MAX_NUMBERS = 16, // more than any list of a scene holds; the core names the right count
+};
+
+// Path of the value that the walk is at.
+typedef struct Path {
+    char text[MAX_PATH];
+    size_t length;
+} Path;
+
+static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value);
+
+// Keys that would be read as a path of their own are quoted, so that the core finds them unknown. A path that
+// is cut at its end is unknown too: no scene key is as long.
+static void path_add_key(Path *path, const char *key)
+{
+    size_t room = sizeof path->text - path->length;
+    bool quoted = key[0] == '\0' || strpbrk(key, ".[]\"");
+    int written = snprintf(path->text + path->length, room, quoted ? "%s\"%s\"" : "%s%s",
+                           path->length > 0 ? "." : "", key);
+    path->length += (size_t)written < room ? (size_t)written : room - 1;
+}
+
+static void path_add_index(Path *path, size_t index)
+{
+    size_t room = sizeof path->text - path->length;
+    int written = snprintf(path->text + path->length, room, "[%zu]", index);
+    path->length += (size_t)written < room ? (size_t)written : room - 1;
+}
+
+static void path_cut(Path *path, size_t length)
+{
+    path->length = length;
+    path->text[length] = '\0';
+}
+
+static WeirStatus walk_object(WeirScene *scene, Path *path, const json_t *object)
+{
+    const char *key;
+    json_t *value;
+    size_t length = path->length;
+    if (json_object_size(object) == 0 && length > 0) {
+        return weir_scene_refuse(scene, path->text, "an empty object");
+    }
+    json_object_foreach((json_t *)object, key, value)
+    {
+        path_add_key(path, key);
+        WeirStatus status = walk(scene, path, value);
+        if (status) return status;
+        path_cut(path, length);
+    }
+    return WEIR_OK;
+}
+
+// A list of numbers is one value; anything else is a list of pieces.
+static WeirStatus walk_list(WeirScene *scene, Path *path, const json_t *list)
+{
+    double numbers[MAX_NUMBERS];
+    size_t count = json_array_size(list), found = 0, length = path->length;
+    for (size_t index = 0; index < count; ++index) {
+        const json_t *item = json_array_get(list, index);
+        if (!json_is_number(item)) break;
+        if (index < MAX_NUMBERS) numbers[index] = json_number_value(item);
+        ++found;
+    }
+    if (found == count && count > MAX_NUMBERS) return weir_scene_refuse(scene, path->text, "a long list");
+    if (found == count) return weir_scene_set_numbers(scene, path->text, numbers, count);
+    if (found > 0) return weir_scene_refuse(scene, path->text, "a list of mixed types");
+    for (size_t index = 0; index < count; ++index) {
+        path_add_index(path, index);
+        WeirStatus status = walk(scene, path, json_array_get(list, index));
+        if (status) return status;
+        path_cut(path, length);
+    }
+    return WEIR_OK;
+}
+
+static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value)
+{
+    switch (json_typeof(value)) {
+    case JSON_OBJECT:
+        return walk_object(scene, path, value);
+    case JSON_ARRAY:
+        return walk_list(scene, path, value);
+    case JSON_REAL:
+    case JSON_INTEGER:
+        return weir_scene_set_number(scene, path->text, json_number_value(value));
+    case JSON_STRING:
+        return weir_scene_set_string(scene, path->text, json_string_value(value));
+    case JSON_TRUE:
+        return weir_scene_refuse(scene, path->text, "true");
+    case JSON_FALSE:
+        return weir_scene_refuse(scene, path->text, "false");
+    case JSON_NULL:
+        break;
+    }
+    return weir_scene_refuse(scene, path->text, "null");
+}
+
+// Reads the whole file, from malloc; NULL with the reason in `message`.
+static char *read_file(const char *path, size_t *size, char *message, size_t message_size)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = file ? malloc(MAX_FILE_SIZE + 1) : NULL;
+    if (!file || !text) {
+        snprintf(message, message_size, "%s: cannot be read: %s", path, strerror(errno));
+        if (file) fclose(file);
+        return NULL;
+    }
+    errno = 0;
+    *size = fread(text, 1, MAX_FILE_SIZE + 1, file);
+    if (ferror(file)) {
+        snprintf(message, message_size, "%s: cannot be read: %s", path, strerror(errno));
+    } else if (*size > MAX_FILE_SIZE) {
+        snprintf(message, message_size, "%s: is larger than %d bytes; that is no scene file", path,
+                 MAX_FILE_SIZE);
+    } else {
+        fclose(file);
+        return text;
+    }
+    fclose(file);
+    free(text);
+    return NULL;
+}
+
+static json_t *parse_file(const char *path, char *message, size_t message_size)
+{
+    size_t size;
+    char *text = read_file(path, &size, message, message_size);
+    if (!text) return NULL;
+    json_error_t error;
+    // Whole numbers too large for an integer are numbers all the same; the core checks their range.
+    json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &error);
+    free(text);
+    if (!document) {
+        snprintf(message, message_size, "%s:%d:%d: malformed JSON: %s", path, error.line, error.column,
+                 error.text);
+    }
+    return document;
+}
+
+WeirStatus weir_json_load_scene(const char *path, WeirScene **scene, char *message, size_t message_size)
+{
+    *scene = NULL;
+    json_t *document = parse_file(path, message, message_size);
+    if (!document) return WEIR_ERROR_INPUT;
+    WeirScene *loaded = weir_scene_create();
+    if (!loaded) {
+        json_decref(document);
+        snprintf(message, message_size, "%s: memory ran out", path);
+        return WEIR_ERROR_MEMORY;
+    }
+    Path position = {.length = 0};
+    WeirStatus status = walk(loaded, &position, document);
+    json_decref(document);
+    if (status) {
+        snprintf(message, message_size, "%s: %s", path, weir_scene_error(loaded));
+        weir_scene_destroy(loaded);
+        return status;
+    }
+    *scene = loaded;
+    return WEIR_OK;
+}
