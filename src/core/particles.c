@@ -136,7 +136,7 @@ static WeirStatus check_values(WeirScene *scene)
     return check_count(scene);
 }
 
-static void advise(WeirScene *scene)
+void weir_scene_advise(WeirScene *scene)
 {
     double stable = weir_scene_stable_time_step(scene);
     scene->warning.text[0] = '\0';
@@ -216,7 +216,7 @@ WeirStatus weir_scene_make_particles(WeirScene *scene, WeirParticles *particles)
         fill_fluid(&scene->fluid[n], spacing, first[n], particles);
     status = check_overlap(scene, particles, first);
     if (status) weir_particles_free(particles);
-    if (!status) advise(scene);
+    if (!status) weir_scene_advise(scene);
     return status;
 }
 

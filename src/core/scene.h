@@ -39,3 +39,5 @@ typedef struct WeirParticles {
 } WeirParticles;
 WeirStatus weir_scene_make_particles(WeirScene *scene, WeirParticles *particles);
 void weir_particles_free(WeirParticles *particles);
+// Refreshes the scene's warning: a time step above the stable one.
+void weir_scene_advise(WeirScene *scene);

@@ -1,0 +1,21 @@
+// Chooses the variant of the pair passes for the processor at hand.
+#include "core/cpu/pairs.h"
+
+extern const WeirPairPasses weir_pair_passes_base;
+
+#if defined(WEIR_PAIRS_AVX2)
+extern const WeirPairPasses weir_pair_passes_avx2, weir_pair_passes_avx512;
+
+const WeirPairPasses *weir_pair_passes(void)
+{
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f")) return &weir_pair_passes_avx512;
+    if (__builtin_cpu_supports("avx2")) return &weir_pair_passes_avx2;
+    return &weir_pair_passes_base;
+}
+#else
+const WeirPairPasses *weir_pair_passes(void)
+{
+    return &weir_pair_passes_base;
+}
+#endif

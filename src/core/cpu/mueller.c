@@ -1,0 +1,464 @@
+// The method `mueller` on the CPU: the reference that judges the GPU, and the fallback where there is none.
+//
+// One step is  count -> scan -> scatter -> density -> forces -> integrate, the same passes as in
+// shaders/solve/.
+//
+//   state (any order) --count, scan, scatter--> sorted (by cell, then id) --density, forces--> acceleration
+//        ^                                                                                          |
+//        +------------------------------------- integrate ------------------------------------------+
+//
+// No pass reads what it writes, and every sum has one order, so the bits depend on neither threads nor
+// compiler.
+#include "core/cpu/arrays.h"
+#include "core/cpu/pairs.h"
+#include "core/cpu/pool.h"
+#include "core/grid.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
+enum { CHUNK = 512, CELL_CHUNK = 4096 };
+
+enum { PASS_COUNT, PASS_SCAN, PASS_SCATTER, PASS_DENSITY, PASS_FORCES, PASS_INTEGRATE, PASS_TOTAL };
+static const char *const pass_names[PASS_TOTAL] = {"count",   "scan",   "scatter",
+                                                   "density", "forces", "integrate"};
+
+typedef struct MuellerCpu {
+    WeirSolver base;
+    WeirParameters parameters;
+    WeirConstants constants;
+    WeirPool *pool;
+    const WeirPairPasses *pairs;
+    WeirParticleArrays state;  // what the last step left
+    WeirParticleArrays sorted; // the same particles by cell
+    WeirSumArrays sums;        // of the sorted particles
+    WeirHostArrays host;       // copy by id, for read()
+    uint32_t *cell;            // of each particle of state
+    uint32_t *rank;            // place of each particle of state among those counted into its cell
+    uint32_t *slot;            // sorted place -> place in state
+    atomic_uint *cell_count;
+    uint32_t *cell_start; // cell_count + 1
+    uint32_t cell_capacity;
+    uint64_t steps;
+    atomic_uint bad_particles;
+    uint64_t first_bad_step;
+    double pass_seconds[PASS_TOTAL];
+} MuellerCpu;
+
+// ---- Passes ----
+
+static void count_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    const WeirConstants *constants = &solver->constants;
+    bool alone = weir_pool_threads(solver->pool) == 1;
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t cell = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
+                        weir_grid_column(constants, solver->state.x[i]);
+        atomic_uint *counter = &solver->cell_count[cell];
+        solver->cell[i] = cell;
+        if (alone) { // a plain increment is several times faster
+            solver->rank[i] = atomic_load_explicit(counter, memory_order_relaxed);
+            atomic_store_explicit(counter, solver->rank[i] + 1, memory_order_relaxed);
+        } else {
+            solver->rank[i] = atomic_fetch_add_explicit(counter, 1, memory_order_relaxed);
+        }
+    }
+}
+
+// Particles per cell, and each one's rank in its cell: any order, scatter puts it right.
+static void count(MuellerCpu *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, count_chunk, solver);
+}
+
+// Exclusive prefix sum of the counts: where each cell's particles begin. Clears the counts for the next step.
+static void scan(MuellerCpu *solver)
+{
+    uint32_t sum = 0;
+    for (uint32_t cell = 0; cell < solver->constants.cell_count; ++cell) {
+        solver->cell_start[cell] = sum;
+        sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
+        atomic_store_explicit(&solver->cell_count[cell], 0, memory_order_relaxed);
+    }
+    solver->cell_start[solver->constants.cell_count] = sum;
+}
+
+static void place_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    for (uint32_t i = begin; i < end; ++i)
+        solver->slot[solver->cell_start[solver->cell[i]] + solver->rank[i]] = i;
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+// Insertion beats any other sort for the few particles of a cell; a crowded one (a blow-up) must not take
+// n^2.
+static void sort_cell_by_id(MuellerCpu *solver, uint32_t begin, uint32_t end)
+{
+    uint32_t *slot = solver->slot;
+    const uint32_t *id = solver->state.id;
+    if (end - begin > 64) {
+        uint64_t *keys = malloc((end - begin) * sizeof *keys);
+        if (keys) {
+            for (uint32_t k = begin; k < end; ++k) keys[k - begin] = (uint64_t)id[slot[k]] << 32 | slot[k];
+            qsort(keys, end - begin, sizeof *keys, compare_keys);
+            for (uint32_t k = begin; k < end; ++k) slot[k] = (uint32_t)keys[k - begin];
+            free(keys);
+            return;
+        }
+    }
+    for (uint32_t k = begin + 1; k < end; ++k) {
+        uint32_t particle = slot[k], place = k;
+        for (; place > begin && id[slot[place - 1]] > id[particle]; --place) slot[place] = slot[place - 1];
+        slot[place] = particle;
+    }
+}
+
+static void gather_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    for (uint32_t cell = begin; cell < end; ++cell) {
+        uint32_t first = solver->cell_start[cell], last = solver->cell_start[cell + 1];
+        if (last - first > 1) sort_cell_by_id(solver, first, last);
+        for (uint32_t k = first; k < last; ++k) {
+            weir_particle_copy(&solver->sorted, k, &solver->state, solver->slot[k]);
+        }
+    }
+}
+
+// Moves the whole particle data to its cell, in order of id.
+static void scatter(MuellerCpu *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, place_chunk, solver);
+    weir_pool_run(solver->pool, solver->constants.cell_count, CELL_CHUNK, gather_chunk, solver);
+}
+
+static WeirPairData pair_data(const MuellerCpu *solver)
+{
+    return (WeirPairData){
+        .parameters = &solver->parameters,
+        .constants = &solver->constants,
+        .cell_start = solver->cell_start,
+        .x = solver->sorted.x,
+        .y = solver->sorted.y,
+        .vx = solver->sorted.vx,
+        .vy = solver->sorted.vy,
+        .density = solver->sums.density,
+        .pressure = solver->sums.pressure,
+        .pressure_term = solver->sums.pressure_term,
+        .inverse_density = solver->sums.inverse_density,
+        .ax = solver->sums.ax,
+        .ay = solver->sums.ay,
+    };
+}
+
+static void density_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    WeirPairData data = pair_data(solver);
+    solver->pairs->density(&data, begin, end);
+}
+
+static void density(MuellerCpu *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, density_chunk, solver);
+}
+
+static void forces_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    WeirPairData data = pair_data(solver);
+    solver->pairs->forces(&data, begin, end);
+}
+
+static void forces(MuellerCpu *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, forces_chunk, solver);
+}
+
+// Acceleration that the pointer tool adds to a particle: falls off linearly to zero at the tool's radius.
+static void add_tool(const WeirConstants *constants, float x, float y, float vx, float vy, float *ax,
+                     float *ay)
+{
+    float dx = x - constants->tool_position[0], dy = y - constants->tool_position[1];
+    float distance = sqrtf(dx * dx + dy * dy);
+    if (!(distance < constants->tool_radius)) return;
+    float strength = constants->tool_strength * (1.0f - distance / constants->tool_radius);
+    if (constants->tool_kind == WEIR_TOOL_STIR) {
+        *ax += strength * (constants->tool_velocity[0] - vx);
+        *ay += strength * (constants->tool_velocity[1] - vy);
+        return;
+    }
+    if (constants->tool_kind == WEIR_TOOL_PULL) strength = -strength;
+    float inverse = distance > 0.0f ? 1.0f / distance : 0.0f;
+    *ax += strength * dx * inverse;
+    *ay += strength * dy * inverse;
+}
+
+// A wall mirrors what went through it, scaled by the restitution. The clamp holds particles in at any speed.
+static inline void reflect(float low, float high, float restitution, float *x, float *v)
+{
+    if (*x < low) {
+        *x = low + restitution * (low - *x);
+        if (*v < 0.0f) *v = -restitution * *v;
+    }
+    if (*x > high) {
+        *x = high - restitution * (*x - high);
+        if (*v > 0.0f) *v = -restitution * *v;
+    }
+    if (*x < low) *x = low;
+    if (*x > high) *x = high;
+}
+
+static void integrate_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    const WeirConstants *constants = &solver->constants;
+    const WeirParticleArrays *from = &solver->sorted;
+    WeirParticleArrays *to = &solver->state;
+    float dt = solver->parameters.time_step, restitution = solver->parameters.restitution;
+    float limit = constants->speed_limit * constants->speed_limit;
+    uint32_t bad = 0;
+    for (uint32_t i = begin; i < end; ++i) {
+        float x = from->x[i], y = from->y[i], vx = from->vx[i], vy = from->vy[i];
+        float ax = solver->sums.ax[i], ay = solver->sums.ay[i];
+        if (constants->tool_kind != WEIR_TOOL_NONE) add_tool(constants, x, y, vx, vy, &ax, &ay);
+        vx += dt * ax;
+        vy += dt * ay;
+        float speed2 = vx * vx + vy * vy;
+        if (!(speed2 <= limit)) ++bad; // NaN compares false
+        if (!(speed2 <= 1e37f)) { // not finite: stays where it was, so that it never indexes outside the grid
+            vx = vy = 0.0f;
+        }
+        x += dt * vx;
+        y += dt * vy;
+        reflect(constants->domain_min[0], constants->domain_max[0], restitution, &x, &vx);
+        reflect(constants->domain_min[1], constants->domain_max[1], restitution, &y, &vy);
+        to->x[i] = x;
+        to->y[i] = y;
+        to->vx[i] = vx;
+        to->vy[i] = vy;
+        to->id[i] = from->id[i];
+    }
+    if (bad) atomic_fetch_add_explicit(&solver->bad_particles, bad, memory_order_relaxed);
+}
+
+// Semi-implicit Euler: the new velocity moves the particle.
+static void integrate(MuellerCpu *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, integrate_chunk, solver);
+}
+
+// ---- The step ----
+
+static void timed(MuellerCpu *solver, int pass, void (*run)(MuellerCpu *))
+{
+    double begin = weir_seconds();
+    run(solver);
+    solver->pass_seconds[pass] = weir_seconds() - begin;
+}
+
+// The tutorial's neighbour search visits every pair, so its particles need no order.
+static void keep_order(MuellerCpu *solver)
+{
+    for (uint32_t i = 0; i < solver->constants.particle_count; ++i) {
+        weir_particle_copy(&solver->sorted, i, &solver->state, i);
+    }
+}
+
+static void evaluate(MuellerCpu *solver)
+{
+    if (solver->parameters.search == WEIR_SEARCH_ALL_PAIRS) {
+        timed(solver, PASS_SCATTER, keep_order);
+    } else {
+        timed(solver, PASS_COUNT, count);
+        timed(solver, PASS_SCAN, scan);
+        timed(solver, PASS_SCATTER, scatter);
+    }
+    timed(solver, PASS_DENSITY, density);
+    timed(solver, PASS_FORCES, forces);
+}
+
+static WeirStatus step(WeirSolver *base, uint32_t steps)
+{
+    MuellerCpu *solver = (MuellerCpu *)base;
+    for (uint32_t n = 0; n < steps; ++n) {
+        evaluate(solver);
+        timed(solver, PASS_INTEGRATE, integrate);
+        ++solver->steps;
+        if (solver->first_bad_step == 0 && solver->bad_particles > 0) solver->first_bad_step = solver->steps;
+    }
+    return WEIR_OK;
+}
+
+// ---- The rest of the solver's contract ----
+
+static void destroy(WeirSolver *base)
+{
+    MuellerCpu *solver = (MuellerCpu *)base;
+    weir_pool_destroy(solver->pool);
+    weir_particle_arrays_free(&solver->state);
+    weir_particle_arrays_free(&solver->sorted);
+    weir_sum_arrays_free(&solver->sums);
+    weir_host_arrays_free(&solver->host);
+    free(solver->cell);
+    free(solver->rank);
+    free(solver->slot);
+    free(solver->cell_count);
+    free(solver->cell_start);
+    free(solver);
+}
+
+static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
+                            const WeirConstants *constants)
+{
+    MuellerCpu *solver = (MuellerCpu *)base;
+    if (constants->cell_count > solver->cell_capacity) {
+        atomic_uint *cell_count = calloc(constants->cell_count, sizeof *cell_count);
+        uint32_t *cell_start = calloc((size_t)constants->cell_count + 1, sizeof *cell_start);
+        if (!cell_count || !cell_start) {
+            free(cell_count);
+            free(cell_start);
+            return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells",
+                             constants->cell_count);
+        }
+        free(solver->cell_count);
+        free(solver->cell_start);
+        solver->cell_count = cell_count;
+        solver->cell_start = cell_start;
+        solver->cell_capacity = constants->cell_count;
+    }
+    solver->parameters = *parameters;
+    solver->constants = *constants;
+    return WEIR_OK;
+}
+
+static WeirStatus set_state(WeirSolver *base, const float *position, const float *velocity)
+{
+    MuellerCpu *solver = (MuellerCpu *)base;
+    for (uint32_t i = 0; i < solver->constants.particle_count; ++i) {
+        solver->state.x[i] = position[2 * i];
+        solver->state.y[i] = position[2 * i + 1];
+        solver->state.vx[i] = velocity[2 * i];
+        solver->state.vy[i] = velocity[2 * i + 1];
+        solver->state.id[i] = i;
+    }
+    solver->steps = solver->first_bad_step = 0;
+    solver->bad_particles = 0;
+    return WEIR_OK;
+}
+
+static WeirStatus poll(WeirSolver *base, WeirHealth *health)
+{
+    const MuellerCpu *solver = (const MuellerCpu *)base;
+    health->bad_particles = solver->bad_particles;
+    health->first_bad_step = solver->first_bad_step;
+    return WEIR_OK;
+}
+
+static WeirStatus wait_until_done(WeirSolver *base)
+{
+    (void)base; // step() returns when it is done
+    return WEIR_OK;
+}
+
+static void copy_by_id(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    const WeirHostArrays *host = &solver->host;
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t id = solver->sorted.id[i];
+        host->position[2 * id] = solver->sorted.x[i];
+        host->position[2 * id + 1] = solver->sorted.y[i];
+        host->velocity[2 * id] = solver->sorted.vx[i];
+        host->velocity[2 * id + 1] = solver->sorted.vy[i];
+        host->acceleration[2 * id] = solver->sums.ax[i];
+        host->acceleration[2 * id + 1] = solver->sums.ay[i];
+        host->density[id] = solver->sums.density[i];
+        host->pressure[id] = solver->sums.pressure[i];
+    }
+}
+
+static WeirStatus read_state(WeirSolver *base, WeirState *state)
+{
+    MuellerCpu *solver = (MuellerCpu *)base;
+    uint32_t count = solver->constants.particle_count;
+    if (!solver->host.position && !weir_host_arrays_make(&solver->host, count)) {
+        return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory to read %u particles", count);
+    }
+    evaluate(solver);
+    weir_pool_run(solver->pool, count, CHUNK, copy_by_id, solver);
+    *state = weir_host_state(&solver->host, count, solver->steps);
+    return WEIR_OK;
+}
+
+static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
+{
+    const MuellerCpu *solver = (const MuellerCpu *)base;
+    if (weir_seconds() == 0.0) return 0; // no clock on this target
+    for (uint32_t n = 0; n < PASS_TOTAL && n < capacity; ++n) {
+        times[n] = (WeirPassTime){pass_names[n], 1000.0 * solver->pass_seconds[n]};
+    }
+    return PASS_TOTAL;
+}
+
+static const WeirSolverInterface mueller_interface = {
+    .destroy = destroy,
+    .configure = configure,
+    .set_state = set_state,
+    .step = step,
+    .poll = poll,
+    .wait = wait_until_done,
+    .read = read_state,
+    .pass_times = pass_times,
+};
+
+static bool allocate(MuellerCpu *solver, uint32_t count, uint32_t threads)
+{
+    solver->pool = weir_pool_create(threads);
+    solver->cell = calloc(count, sizeof *solver->cell);
+    solver->rank = calloc(count, sizeof *solver->rank);
+    solver->slot = calloc(count, sizeof *solver->slot);
+    return solver->pool && solver->cell && solver->rank && solver->slot &&
+           weir_particle_arrays_make(&solver->state, count) &&
+           weir_particle_arrays_make(&solver->sorted, count) && weir_sum_arrays_make(&solver->sums, count);
+}
+
+static WeirSolver *create_solver(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
+                                 WeirMessage *message)
+{
+    (void)backend;
+    MuellerCpu *solver = calloc(1, sizeof *solver);
+    uint32_t count = setup->constants.particle_count;
+    if (!solver || !allocate(solver, count, setup->threads) ||
+        configure(&solver->base, &setup->parameters, &setup->constants) != WEIR_OK) {
+        *status = weir_fail(message, WEIR_ERROR_MEMORY,
+                            "no memory for %u particles; raise parameters.particle_spacing", count);
+        if (solver) destroy(&solver->base);
+        return NULL;
+    }
+    solver->base.interface = &mueller_interface;
+    solver->base.threads = weir_pool_threads(solver->pool);
+    solver->pairs = weir_pair_passes();
+    snprintf(solver->base.device, sizeof solver->base.device, "CPU, %u thread%s, %s", solver->base.threads,
+             solver->base.threads == 1 ? "" : "s", solver->pairs->simd);
+    set_state(&solver->base, setup->position, setup->velocity);
+    *status = WEIR_OK;
+    return &solver->base;
+}
+
+const WeirBackend *weir_cpu_backend(void)
+{
+    static const WeirBackend backend = {.name = "cpu", .create_solver = create_solver};
+    return &backend;
+}

@@ -1,0 +1,180 @@
+// Density and forces of `mueller` on the CPU.
+//
+// One vector holds WEIR_LANES particles i that are neighbours in the sorted order, so they share almost all
+// their candidates j: each candidate is broadcast to all lanes.
+//
+//   candidates j ->  . . . . . . . . . . . .      3 runs, one per cell row
+//   lanes i          [ i0 i1 i2 ... ]             one vector
+//
+// Every lane adds its candidates in the sorted order, and a candidate outside its support adds exactly 0. So
+// the sum has the same bits for any number of lanes: SSE, AVX, AVX-512, NEON and WebAssembly agree. Formulas:
+// docs/method.md. Mirrors shaders/solve/density.wgsl and forces.wgsl.
+#include "core/cpu/pairs.h"
+#include "core/cpu/simd.h"
+#include "core/grid.h"
+
+// Name of the variant that this compilation makes; the build compiles this file once per instruction set.
+#ifndef WEIR_PAIR_PASSES
+#define WEIR_PAIR_PASSES weir_pair_passes_base
+#endif
+extern const WeirPairPasses WEIR_PAIR_PASSES;
+
+// Lanes of one vector and the runs of cells that hold all their neighbours.
+typedef struct Group {
+    uint32_t lanes;
+    uint32_t first_row, last_row, first_column, last_column;
+    bool all_pairs;
+} Group;
+
+// Takes particles from `begin` on, as long as they share a row and lie close enough that one run of
+// candidates serves them all.
+static Group make_group(const WeirPairData *data, uint32_t begin, uint32_t end)
+{
+    const WeirConstants *constants = data->constants;
+    Group group = {.lanes = 1, .all_pairs = data->parameters->search == WEIR_SEARCH_ALL_PAIRS};
+    uint32_t most = end - begin < WEIR_LANES ? end - begin : WEIR_LANES;
+    if (group.all_pairs) {
+        group.lanes = most;
+        return group;
+    }
+    float reach = constants->search_radius;
+    float low_x = data->x[begin], high_x = low_x, low_y = data->y[begin], high_y = low_y;
+    uint32_t row = weir_grid_row(constants, low_y);
+    while (group.lanes < most) {
+        float x = data->x[begin + group.lanes], y = data->y[begin + group.lanes];
+        if (weir_grid_row(constants, y) != row || x - low_x > 3.0f * reach) break;
+        low_x = x < low_x ? x : low_x;
+        high_x = x > high_x ? x : high_x;
+        low_y = y < low_y ? y : low_y;
+        high_y = y > high_y ? y : high_y;
+        ++group.lanes;
+    }
+    group.first_row = weir_grid_row(constants, low_y - reach);
+    group.last_row = weir_grid_row(constants, high_y + reach);
+    group.first_column = weir_grid_column(constants, low_x - reach);
+    group.last_column = weir_grid_column(constants, high_x + reach);
+    return group;
+}
+
+// Candidates of a group in one row of cells.
+typedef struct Run {
+    uint32_t begin, end;
+} Run;
+
+static inline Run candidate_run(const WeirPairData *data, const Group *group, uint32_t row)
+{
+    if (group->all_pairs) return (Run){0, data->constants->particle_count};
+    const uint32_t *start = data->cell_start + row * data->constants->cell_columns;
+    return (Run){start[group->first_column], start[group->last_column + 1]};
+}
+
+// sum_j (h - r)^3, or sum_j (h^2 - r^2)^3 for the tutorial's kernel.
+static inline __attribute__((always_inline)) WeirLanes sum_density(const WeirPairData *data,
+                                                                   const Group *group, uint32_t begin,
+                                                                   bool tutorial)
+{
+    const float *restrict x = data->x, *restrict y = data->y;
+    float h = data->parameters->support_radius;
+    WeirLanes xi = weir_lanes_load(x + begin), yi = weir_lanes_load(y + begin);
+    WeirLanes support = weir_lanes_fill(tutorial ? h * h : h), zero = {0}, sum = {0};
+    for (uint32_t row = group->first_row; row <= group->last_row; ++row) {
+        Run run = candidate_run(data, group, row);
+        for (uint32_t j = run.begin; j < run.end; ++j) {
+            WeirLanes dx = xi - x[j], dy = yi - y[j];
+            WeirLanes r2 = dx * dx + dy * dy;
+            WeirLanes q = weir_lanes_max(support - (tutorial ? r2 : weir_lanes_sqrt(r2)), zero);
+            sum += q * q * q;
+        }
+    }
+    return sum;
+}
+
+// Equation of state p = k (rho - rho0), a negative pressure scaled by negative_pressure.
+static void finish_density(const WeirPairData *data, uint32_t i, float sum)
+{
+    const WeirParameters *parameters = data->parameters;
+    float density = data->constants->density_factor * sum;
+    float pressure = parameters->gas_constant * (density - parameters->rest_density);
+    if (pressure < 0.0f) pressure *= parameters->negative_pressure;
+    float inverse = 1.0f / density;
+    data->density[i] = density;
+    data->pressure[i] = pressure;
+    data->inverse_density[i] = inverse;
+    data->pressure_term[i] =
+        parameters->kernels == WEIR_KERNELS_TUTORIAL ? pressure : pressure * inverse * inverse;
+}
+
+static void density(const WeirPairData *data, uint32_t begin, uint32_t end)
+{
+    bool tutorial = data->parameters->kernels == WEIR_KERNELS_TUTORIAL;
+    for (uint32_t i = begin; i < end;) {
+        Group group = make_group(data, i, end);
+        WeirLanes sum = tutorial ? sum_density(data, &group, i, true) : sum_density(data, &group, i, false);
+        for (uint32_t lane = 0; lane < group.lanes; ++lane) finish_density(data, i + lane, sum[lane]);
+        i += group.lanes;
+    }
+}
+
+// The sums of the force pass: pressure (along x_i - x_j) and viscosity (along v_j - v_i).
+typedef struct Force {
+    WeirLanes pressure_x, pressure_y, viscosity_x, viscosity_y;
+} Force;
+
+// consistent: sum_j (p_i/rho_i^2 + p_j/rho_j^2) (h-r)^2 (x_i-x_j)/r
+// tutorial:   sum_j (p_i + p_j)/rho_j           (h-r)^2 (x_i-x_j)/r
+// viscosity:  sum_j (v_j - v_i)/rho_j (h-r)
+static inline __attribute__((always_inline)) Force sum_forces(const WeirPairData *data, const Group *group,
+                                                              uint32_t begin, bool tutorial)
+{
+    const float *restrict x = data->x, *restrict y = data->y, *restrict vx = data->vx,
+                          *restrict vy = data->vy;
+    const float *restrict term = data->pressure_term, *restrict inverse_density = data->inverse_density;
+    WeirLanes xi = weir_lanes_load(x + begin), yi = weir_lanes_load(y + begin);
+    WeirLanes vxi = weir_lanes_load(vx + begin), vyi = weir_lanes_load(vy + begin);
+    WeirLanes term_i = weir_lanes_load(term + begin);
+    WeirLanes h = weir_lanes_fill(data->parameters->support_radius), zero = {0};
+    WeirLanes tiny = weir_lanes_fill(1e-24f); // m^2: keeps r = 0 from a division by zero; the force is 0 then
+    Force force = {{0}, {0}, {0}, {0}};
+    for (uint32_t row = group->first_row; row <= group->last_row; ++row) {
+        Run run = candidate_run(data, group, row);
+        for (uint32_t j = run.begin; j < run.end; ++j) {
+            WeirLanes dx = xi - x[j], dy = yi - y[j];
+            WeirLanes r = weir_lanes_sqrt(weir_lanes_max(dx * dx + dy * dy, tiny));
+            WeirLanes q = weir_lanes_max(h - r, zero);
+            WeirLanes pressure = (term_i + term[j]) * (q * q / r);
+            WeirLanes viscosity = q * inverse_density[j];
+            if (tutorial) pressure *= inverse_density[j];
+            force.pressure_x += pressure * dx;
+            force.pressure_y += pressure * dy;
+            force.viscosity_x += viscosity * (vx[j] - vxi);
+            force.viscosity_y += viscosity * (vy[j] - vyi);
+        }
+    }
+    return force;
+}
+
+static void finish_forces(const WeirPairData *data, uint32_t i, const Force *force, uint32_t lane,
+                          bool tutorial)
+{
+    float inverse = data->inverse_density[i];
+    float pressure = data->constants->pressure_factor;
+    if (tutorial) pressure *= 0.5f * inverse;
+    float viscosity = data->constants->viscosity_factor * inverse;
+    const float *gravity = data->parameters->gravity;
+    data->ax[i] = pressure * force->pressure_x[lane] + viscosity * force->viscosity_x[lane] + gravity[0];
+    data->ay[i] = pressure * force->pressure_y[lane] + viscosity * force->viscosity_y[lane] + gravity[1];
+}
+
+static void forces(const WeirPairData *data, uint32_t begin, uint32_t end)
+{
+    bool tutorial = data->parameters->kernels == WEIR_KERNELS_TUTORIAL;
+    for (uint32_t i = begin; i < end;) {
+        Group group = make_group(data, i, end);
+        Force force = tutorial ? sum_forces(data, &group, i, true) : sum_forces(data, &group, i, false);
+        for (uint32_t lane = 0; lane < group.lanes; ++lane)
+            finish_forces(data, i + lane, &force, lane, tutorial);
+        i += group.lanes;
+    }
+}
+
+const WeirPairPasses WEIR_PAIR_PASSES = {WEIR_SIMD_NAME, density, forces};

@@ -1,0 +1,149 @@
+#include "core/cpu/pool.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#if defined(__wasm__)
+
+// One thread: the page runs the whole solver in a worker of its own.
+struct WeirPool {
+    uint32_t threads;
+};
+
+WeirPool *weir_pool_create(uint32_t threads)
+{
+    (void)threads;
+    WeirPool *pool = malloc(sizeof *pool);
+    if (pool) pool->threads = 1;
+    return pool;
+}
+
+void weir_pool_destroy(WeirPool *pool)
+{
+    free(pool);
+}
+
+uint32_t weir_pool_threads(const WeirPool *pool)
+{
+    return pool->threads;
+}
+
+void weir_pool_run(WeirPool *pool, uint32_t items, uint32_t chunk, WeirPoolBody *body, void *context)
+{
+    (void)pool;
+    (void)chunk;
+    if (items > 0) body(context, 0, items);
+}
+
+#else
+
+#include <pthread.h>
+#include <unistd.h>
+
+enum { MAX_THREADS = 256 };
+
+struct WeirPool {
+    uint32_t threads; // the caller included
+    pthread_t thread[MAX_THREADS];
+    pthread_mutex_t mutex;
+    pthread_cond_t work, done;
+    uint64_t round;   // of loops; a worker that sees a new one joins it
+    uint32_t running; // workers that have not left the loop
+    bool stop;
+    WeirPoolBody *body;
+    void *context;
+    uint32_t items, chunk;
+    atomic_uint next; // first item that nobody has taken
+};
+
+static void take_chunks(WeirPool *pool)
+{
+    for (;;) {
+        uint32_t begin = atomic_fetch_add_explicit(&pool->next, pool->chunk, memory_order_relaxed);
+        if (begin >= pool->items) return;
+        uint32_t left = pool->items - begin;
+        pool->body(pool->context, begin, begin + (left < pool->chunk ? left : pool->chunk));
+    }
+}
+
+static void *worker(void *argument)
+{
+    WeirPool *pool = argument;
+    uint64_t seen = 0;
+    pthread_mutex_lock(&pool->mutex);
+    for (;;) {
+        while (pool->round == seen && !pool->stop) pthread_cond_wait(&pool->work, &pool->mutex);
+        if (pool->stop) break;
+        seen = pool->round;
+        pthread_mutex_unlock(&pool->mutex);
+        take_chunks(pool);
+        pthread_mutex_lock(&pool->mutex);
+        if (--pool->running == 0) pthread_cond_signal(&pool->done);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return NULL;
+}
+
+WeirPool *weir_pool_create(uint32_t threads)
+{
+    WeirPool *pool = calloc(1, sizeof *pool);
+    if (!pool) return NULL;
+    if (threads == 0) {
+        long cores = sysconf(_SC_NPROCESSORS_ONLN);
+        threads = cores > 0 ? (uint32_t)cores : 1;
+    }
+    if (threads > MAX_THREADS) threads = MAX_THREADS;
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->work, NULL);
+    pthread_cond_init(&pool->done, NULL);
+    pool->threads = 1;
+    while (pool->threads < threads && pthread_create(&pool->thread[pool->threads], NULL, worker, pool) == 0) {
+        ++pool->threads;
+    }
+    return pool;
+}
+
+void weir_pool_destroy(WeirPool *pool)
+{
+    if (!pool) return;
+    pthread_mutex_lock(&pool->mutex);
+    pool->stop = true;
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->mutex);
+    for (uint32_t n = 1; n < pool->threads; ++n) pthread_join(pool->thread[n], NULL);
+    pthread_cond_destroy(&pool->work);
+    pthread_cond_destroy(&pool->done);
+    pthread_mutex_destroy(&pool->mutex);
+    free(pool);
+}
+
+uint32_t weir_pool_threads(const WeirPool *pool)
+{
+    return pool->threads;
+}
+
+void weir_pool_run(WeirPool *pool, uint32_t items, uint32_t chunk, WeirPoolBody *body, void *context)
+{
+    if (items == 0) return;
+    if (pool->threads == 1 || items <= chunk) {
+        body(context, 0, items);
+        return;
+    }
+    pthread_mutex_lock(&pool->mutex);
+    pool->body = body;
+    pool->context = context;
+    pool->items = items;
+    pool->chunk = chunk;
+    atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
+    pool->running = pool->threads - 1;
+    ++pool->round;
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->mutex);
+    take_chunks(pool);
+    pthread_mutex_lock(&pool->mutex);
+    while (pool->running > 0) pthread_cond_wait(&pool->done, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+#endif

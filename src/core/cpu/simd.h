@@ -1,0 +1,97 @@
+// Vectors of floats as wide as the target has them, on compiler vector types (gcc, clang). Only operations
+// that IEEE 754 rounds exactly: a lane gives the same bits at any width, so the width is free to differ
+// between targets.
+#pragma once
+
+#include <stdint.h>
+#include <string.h>
+
+#if defined(__AVX512F__)
+enum { WEIR_LANES = 16 };
+#define WEIR_SIMD_NAME "AVX-512"
+#elif defined(__AVX2__)
+enum { WEIR_LANES = 8 };
+#define WEIR_SIMD_NAME "AVX2"
+#elif defined(__SSE2__)
+enum { WEIR_LANES = 4 };
+#define WEIR_SIMD_NAME "SSE2"
+#elif defined(__wasm_simd128__)
+enum { WEIR_LANES = 4 };
+#define WEIR_SIMD_NAME "wasm SIMD"
+#elif defined(__ARM_NEON)
+enum { WEIR_LANES = 4 };
+#define WEIR_SIMD_NAME "NEON"
+#else
+enum { WEIR_LANES = 4 };
+#define WEIR_SIMD_NAME "no SIMD"
+#endif
+
+typedef float WeirLanes __attribute__((vector_size(4 * WEIR_LANES)));
+typedef int32_t WeirMask __attribute__((vector_size(4 * WEIR_LANES)));
+
+static inline WeirLanes weir_lanes_load(const float *values)
+{
+    WeirLanes lanes;
+    memcpy(&lanes, values, sizeof lanes);
+    return lanes;
+}
+
+static inline WeirLanes weir_lanes_fill(float value)
+{
+    return value - (WeirLanes){0};
+}
+
+#if defined(__AVX512F__)
+#include <immintrin.h>
+static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
+{
+    return (WeirLanes)_mm512_sqrt_ps((__m512)a);
+}
+static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm512_max_ps((__m512)a, (__m512)b);
+}
+#elif defined(__AVX2__)
+#include <immintrin.h>
+static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
+{
+    return (WeirLanes)_mm256_sqrt_ps((__m256)a);
+}
+static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm256_max_ps((__m256)a, (__m256)b);
+}
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
+{
+    return (WeirLanes)_mm_sqrt_ps((__m128)a);
+}
+static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm_max_ps((__m128)a, (__m128)b);
+}
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
+{
+    return (WeirLanes)wasm_f32x4_sqrt((v128_t)a);
+}
+static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+#else
+#include <math.h>
+static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
+{
+    for (int lane = 0; lane < WEIR_LANES; ++lane) a[lane] = sqrtf(a[lane]);
+    return a;
+}
+// a where a > b, else b: also for NaN, as the instructions above do.
+static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
+{
+    WeirMask greater = (WeirMask)(a > b);
+    return (WeirLanes)((greater & (WeirMask)a) | (~greater & (WeirMask)b));
+}
+#endif

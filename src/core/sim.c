@@ -1,0 +1,371 @@
+// A simulation: a scene's particles on a solver, its clock, its health and what may be read of it.
+#include "core/sim.h"
+#include "core/diagnostics.h"
+#include "core/kernel.h"
+#include "core/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEFAULT_MAX_STEPS = 64 };
+static const double default_max_lag = 0.1; // s: a frame later than this is a stall, not a slow frame
+
+struct WeirSim {
+    WeirScene *scene;
+    WeirConstants constants;
+    WeirTool tool;
+    const WeirBackend *backend;
+    WeirSolver *solver;
+    WeirStatus status;
+    WeirMessage error, warning;
+    uint32_t particle_count;
+    uint64_t steps;       // since the last reset
+    uint64_t steps_given; // of these, taken before the solver's state was last replaced
+    double time;
+    uint32_t max_steps;
+    double max_lag;
+    double owed; // simulated seconds that the accumulator holds
+    bool state_is_current;
+    WeirState state;
+};
+
+static WeirStatus stop(WeirSim *sim, WeirStatus status, const WeirMessage *message)
+{
+    sim->error = *message;
+    return sim->status = status;
+}
+
+// A message from the solver that does not stop the run.
+static WeirStatus pass_on(WeirSim *sim, WeirStatus status)
+{
+    if (status == WEIR_OK || status == WEIR_PENDING) return status;
+    sim->error = sim->solver->message;
+    if (status == WEIR_ERROR_DEVICE) sim->status = status;
+    return status;
+}
+
+static WeirStatus start(WeirSim *sim, uint32_t threads)
+{
+    WeirParticles particles;
+    WeirStatus status = weir_scene_make_particles(sim->scene, &particles);
+    if (status) return stop(sim, status, &sim->scene->error);
+    sim->warning = sim->scene->warning;
+    sim->particle_count = particles.count;
+    weir_constants_make(&sim->constants, &sim->scene->parameters, sim->scene->dimension,
+                        sim->scene->domain_min, sim->scene->domain_max, particles.count, &sim->tool);
+    WeirSolverSetup setup = {
+        .parameters = sim->scene->parameters,
+        .constants = sim->constants,
+        .position = particles.position,
+        .velocity = particles.velocity,
+        .threads = threads,
+    };
+    WeirMessage message = {""};
+    sim->solver = sim->backend->create_solver(sim->backend, &setup, &status, &message);
+    weir_particles_free(&particles);
+    return sim->solver ? WEIR_OK : stop(sim, status, &message);
+}
+
+WeirSim *weir_sim_create(const WeirScene *scene, const WeirSimOptions *options)
+{
+    WeirSim *sim = calloc(1, sizeof *sim);
+    if (!sim) return NULL;
+    WeirSimOptions chosen = options ? *options : (WeirSimOptions){0};
+    sim->backend = chosen.backend ? chosen.backend : weir_cpu_backend();
+    sim->max_lag = chosen.max_lag > 0.0 ? chosen.max_lag : default_max_lag;
+    weir_sim_set_max_steps(sim, chosen.max_steps);
+    sim->scene = weir_scene_copy(scene);
+    if (!sim->scene) {
+        free(sim);
+        return NULL;
+    }
+    start(sim, chosen.threads);
+    return sim;
+}
+
+void weir_sim_destroy(WeirSim *sim)
+{
+    if (!sim) return;
+    if (sim->solver) sim->solver->interface->destroy(sim->solver);
+    weir_scene_destroy(sim->scene);
+    free(sim);
+}
+
+// ---- What it is ----
+
+WeirStatus weir_sim_status(const WeirSim *sim)
+{
+    return sim->status;
+}
+
+const char *weir_sim_error(const WeirSim *sim)
+{
+    return sim->error.text;
+}
+
+const char *weir_sim_warning(const WeirSim *sim)
+{
+    return sim->warning.text;
+}
+
+const char *weir_sim_backend(const WeirSim *sim)
+{
+    return sim->backend->name;
+}
+
+const char *weir_sim_device(const WeirSim *sim)
+{
+    return sim->solver ? sim->solver->device : "";
+}
+
+uint32_t weir_sim_threads(const WeirSim *sim)
+{
+    return sim->solver ? sim->solver->threads : 0;
+}
+
+uint32_t weir_sim_particle_count(const WeirSim *sim)
+{
+    return sim->particle_count;
+}
+
+uint64_t weir_sim_step_count(const WeirSim *sim)
+{
+    return sim->steps;
+}
+
+double weir_sim_time(const WeirSim *sim)
+{
+    return sim->time;
+}
+
+const WeirScene *weir_sim_scene(const WeirSim *sim)
+{
+    return sim->scene;
+}
+
+WeirSolver *weir_sim_solver(WeirSim *sim)
+{
+    return sim->solver;
+}
+
+const WeirParameters *weir_sim_parameters(const WeirSim *sim)
+{
+    return &sim->scene->parameters;
+}
+
+const WeirConstants *weir_sim_constants(const WeirSim *sim)
+{
+    return &sim->constants;
+}
+
+// ---- Time ----
+
+WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps)
+{
+    if (sim->status) return sim->status;
+    if (steps == 0) return WEIR_OK;
+    sim->state_is_current = false;
+    WeirStatus status = pass_on(sim, sim->solver->interface->step(sim->solver, steps));
+    if (status) return status;
+    sim->steps += steps;
+    sim->time += steps * (double)sim->scene->parameters.time_step;
+    return weir_sim_poll(sim);
+}
+
+void weir_sim_set_max_steps(WeirSim *sim, uint32_t max_steps)
+{
+    sim->max_steps = max_steps > 0 ? max_steps : DEFAULT_MAX_STEPS;
+}
+
+WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_taken)
+{
+    uint32_t none;
+    if (!steps_taken) steps_taken = &none;
+    *steps_taken = 0;
+    if (sim->status) return sim->status;
+    if (!(wall_seconds >= 0.0)) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "wall_seconds: %g; must be 0 or more", wall_seconds);
+    }
+    double scale = sim->scene->parameters.time_scale, dt = sim->scene->parameters.time_step;
+    sim->owed = fmin(sim->owed + wall_seconds * scale, sim->max_lag * scale);
+    double due = floor(sim->owed / dt);
+    uint32_t steps = due < sim->max_steps ? (uint32_t)due : sim->max_steps;
+    // What was not taken is dropped: a simulation that is too slow must slow down, not fall ever further
+    // behind.
+    sim->owed = due > sim->max_steps ? 0.0 : sim->owed - steps * dt;
+    WeirStatus status = weir_sim_step(sim, steps);
+    if (status == WEIR_OK) *steps_taken = steps;
+    return status;
+}
+
+WeirStatus weir_sim_poll(WeirSim *sim)
+{
+    if (sim->status) return sim->status;
+    WeirHealth health = {0};
+    WeirStatus status = sim->solver->interface->poll(sim->solver, &health);
+    if (status == WEIR_PENDING) return WEIR_PENDING;
+    if (status) return stop(sim, status, &sim->solver->message);
+    if (health.bad_particles == 0) return WEIR_OK;
+    const WeirParameters *parameters = &sim->scene->parameters;
+    double stable = weir_stable_time_step(parameters);
+    return sim->status = weir_fail(
+               &sim->error, WEIR_ERROR_UNSTABLE,
+               "step %llu: the fluid blew up: particles faster than %.3g m/s or not finite. "
+               "time_step is %g s; %s %.2g s",
+               (unsigned long long)(sim->steps_given + health.first_bad_step), sim->constants.speed_limit,
+               parameters->time_step, parameters->time_step > stable ? "use at most" : "try half of it,",
+               parameters->time_step > stable ? stable : 0.5 * parameters->time_step);
+}
+
+WeirStatus weir_sim_wait(WeirSim *sim)
+{
+    if (sim->status) return sim->status;
+    WeirStatus status = pass_on(sim, sim->solver->interface->wait(sim->solver));
+    return status ? status : weir_sim_poll(sim);
+}
+
+// ---- State and parameters ----
+
+static WeirStatus replace_state(WeirSim *sim, const float *position, const float *velocity)
+{
+    sim->state_is_current = false;
+    WeirStatus status = pass_on(sim, sim->solver->interface->set_state(sim->solver, position, velocity));
+    if (status) return status;
+    sim->steps_given = sim->steps;
+    if (sim->status == WEIR_ERROR_UNSTABLE) sim->status = WEIR_OK;
+    return WEIR_OK;
+}
+
+WeirStatus weir_sim_reset(WeirSim *sim)
+{
+    if (!sim->solver || sim->status == WEIR_ERROR_DEVICE) return sim->status;
+    WeirParticles particles;
+    WeirStatus status = weir_scene_make_particles(sim->scene, &particles);
+    if (status) {
+        sim->error = sim->scene->error;
+        return status;
+    }
+    sim->steps = 0;
+    sim->time = sim->owed = 0.0;
+    status = replace_state(sim, particles.position, particles.velocity);
+    weir_particles_free(&particles);
+    return status;
+}
+
+WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float *velocities)
+{
+    if (!sim->solver || sim->status == WEIR_ERROR_DEVICE) return sim->status;
+    const WeirConstants *constants = &sim->constants;
+    for (size_t k = 0; k < 2 * (size_t)sim->particle_count; ++k) {
+        int axis = (int)(k % 2);
+        if (!(positions[k] >= constants->domain_min[axis] && positions[k] <= constants->domain_max[axis])) {
+            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                             "positions: particle %zu has %c = %g; the domain allows %g to %g", k / 2,
+                             "xy"[axis], positions[k], constants -> domain_min[axis],
+                             constants -> domain_max[axis]);
+        }
+        if (!isfinite(velocities[k])) {
+            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                             "velocities: particle %zu has v%c = %g; must be finite", k / 2, "xy"[axis],
+                             velocities[k]);
+        }
+    }
+    return replace_state(sim, positions, velocities);
+}
+
+static WeirStatus configure(WeirSim *sim)
+{
+    return pass_on(sim,
+                   sim->solver->interface->configure(sim->solver, &sim->scene->parameters, &sim->constants));
+}
+
+WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *values, size_t count)
+{
+    if (!sim->solver) return sim->status;
+    int index = weir_parameter_find(name);
+    if (index < 0) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                         "%.60s: no such parameter; see `weir params` or docs/parameters.md", name);
+    }
+    if (!weir_parameter_info((uint32_t)index)->live) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                         "%s: cannot change while a simulation runs; change the scene and start it again",
+                         name);
+    }
+    WeirParameters changed = sim->scene->parameters;
+    WeirStatus status = weir_parameter_set(&changed, (uint32_t)index, name, values, count, &sim->error);
+    if (status) return status;
+    sim->state_is_current = false;
+    sim->scene->parameters = changed;
+    weir_constants_make(&sim->constants, &changed, sim->scene->dimension, sim->scene->domain_min,
+                        sim->scene->domain_max, sim->particle_count, &sim->tool);
+    weir_scene_advise(sim->scene);
+    sim->warning = sim->scene->warning;
+    return configure(sim);
+}
+
+WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool)
+{
+    if (!sim->solver) return sim->status;
+    sim->tool = tool ? *tool : (WeirTool){0};
+    weir_constants_set_tool(&sim->constants, &sim->tool);
+    return configure(sim);
+}
+
+WeirStatus weir_sim_state(WeirSim *sim, WeirState *state)
+{
+    if (!sim->solver) return sim->status;
+    if (!sim->state_is_current) {
+        WeirStatus status = pass_on(sim, sim->solver->interface->read(sim->solver, &sim->state));
+        if (status) return status;
+        sim->state.step += sim->steps_given;
+        sim->state_is_current = sim->state.step == sim->steps;
+    }
+    *state = sim->state;
+    return WEIR_OK;
+}
+
+uint32_t weir_field_components(WeirField field)
+{
+    return field == WEIR_FIELD_DENSITY || field == WEIR_FIELD_PRESSURE ? 1 : 2;
+}
+
+WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t capacity)
+{
+    size_t floats = (size_t)sim->particle_count * weir_field_components(field);
+    if ((uint32_t)field > WEIR_FIELD_PRESSURE) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "field: %d; must be a WeirField", (int)field);
+    }
+    if (capacity < floats) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "capacity: %zu floats; %zu are needed", capacity,
+                         floats);
+    }
+    WeirState state;
+    WeirStatus status = weir_sim_state(sim, &state);
+    if (status) return status;
+    const float *const fields[] = {
+        [WEIR_FIELD_POSITION] = state.position,         [WEIR_FIELD_VELOCITY] = state.velocity,
+        [WEIR_FIELD_ACCELERATION] = state.acceleration, [WEIR_FIELD_DENSITY] = state.density,
+        [WEIR_FIELD_PRESSURE] = state.pressure,
+    };
+    memcpy(values, fields[field], floats * sizeof *values);
+    return WEIR_OK;
+}
+
+WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics *diagnostics)
+{
+    WeirState state;
+    WeirStatus status = weir_sim_state(sim, &state);
+    if (status) return status;
+    status = weir_diagnose(&state, &sim->scene->parameters, &sim->constants, count_neighbors, diagnostics);
+    if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
+    diagnostics->step = state.step;
+    diagnostics->time = sim->time - (double)(sim->steps - state.step) * sim->scene->parameters.time_step;
+    return WEIR_OK;
+}
+
+uint32_t weir_sim_pass_times(const WeirSim *sim, WeirPassTime *times, uint32_t capacity)
+{
+    return sim->solver ? sim->solver->interface->pass_times(sim->solver, times, capacity) : 0;
+}
