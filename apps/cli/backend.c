@@ -1,0 +1,76 @@
+#include "backend.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#if WEIR_WITH_GPU
+
+static WeirStatus open_gpu(WeirCliBackend *backend, char *message, size_t message_size)
+{
+    backend->gpu = weir_gpu_create(NULL);
+    if (!backend->gpu) {
+        snprintf(message, message_size, "memory ran out");
+        return WEIR_ERROR_MEMORY;
+    }
+    WeirStatus status = weir_gpu_wait(backend->gpu);
+    if (!status) {
+        backend->backend = weir_gpu_backend(backend->gpu);
+        return WEIR_OK;
+    }
+    snprintf(message, message_size, "%s", weir_gpu_error(backend->gpu));
+    weir_gpu_destroy(backend->gpu);
+    backend->gpu = NULL;
+    return status;
+}
+
+static bool is_software(const WeirCliBackend *backend)
+{
+    return weir_gpu_is_software(backend->gpu);
+}
+
+static void close_gpu(WeirCliBackend *backend)
+{
+    weir_gpu_destroy(backend->gpu);
+}
+
+#else
+
+static WeirStatus open_gpu(WeirCliBackend *backend, char *message, size_t message_size)
+{
+    (void)backend;
+    snprintf(message, message_size, "this build has no GPU backend (built with WEIR_GPU=OFF)");
+    return WEIR_ERROR_DEVICE;
+}
+
+static bool is_software(const WeirCliBackend *backend)
+{
+    (void)backend;
+    return false;
+}
+
+static void close_gpu(WeirCliBackend *backend)
+{
+    (void)backend;
+}
+
+#endif
+
+WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char *message,
+                                 size_t message_size)
+{
+    *backend = (WeirCliBackend){.backend = weir_cpu_backend()};
+    if (strcmp(name, "cpu") == 0) return WEIR_OK;
+    WeirStatus status = open_gpu(backend, message, message_size);
+    if (strcmp(name, "gpu") == 0) return status;
+    if (!status && is_software(backend)) {
+        weir_cli_backend_close(backend);
+        *backend = (WeirCliBackend){.backend = weir_cpu_backend()};
+    }
+    return WEIR_OK;
+}
+
+void weir_cli_backend_close(WeirCliBackend *backend)
+{
+    close_gpu(backend);
+    *backend = (WeirCliBackend){0};
+}

@@ -1,0 +1,17 @@
+// Which backend a command runs on: the CPU, or the GPU where there is one.
+#pragma once
+
+#include "weir/weir.h"
+#include "weir/weir_gpu.h"
+
+typedef struct WeirCliBackend {
+    const WeirBackend *backend;
+    WeirGpu *gpu; // NULL on the CPU
+} WeirCliBackend;
+
+// `name` is "cpu", "gpu" or "auto": the GPU if it is a real one, else the CPU (a software adapter is far
+// slower than the C solver). On failure `message` says why.
+WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char *message,
+                                 size_t message_size);
+// Simulations must be gone before.
+void weir_cli_backend_close(WeirCliBackend *backend);

@@ -1,0 +1,54 @@
+#include "bench_scene.h"
+
+#include <math.h>
+
+// Widest block of `count` particles that is at most twice as wide as high; a prime count gives one row.
+static uint32_t block_columns(uint32_t count)
+{
+    uint32_t columns = (uint32_t)sqrt(2.0 * count);
+    while (columns > 1 && count % columns != 0) --columns;
+    uint32_t rows = count / columns;
+    return columns > rows ? columns : rows;
+}
+
+// The numbers of scenes/article.json.
+static void set_article_parameters(WeirScene *scene)
+{
+    weir_scene_set_number(scene, "parameters.particle_spacing", 0.007);
+    weir_scene_set_number(scene, "parameters.support_radius", 0.045);
+    weir_scene_set_number(scene, "parameters.rest_density", 1000.0);
+    weir_scene_set_number(scene, "parameters.gas_constant", 2000.0);
+    weir_scene_set_number(scene, "parameters.viscosity", 0.1);
+    weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0.0, -9.81}, 2);
+    weir_scene_set_number(scene, "parameters.time_step", 0.0008);
+}
+
+static void set_n20_parameters(WeirScene *scene)
+{
+    weir_scene_set_number(scene, "parameters.particle_spacing", 0.01);
+    weir_scene_set_number(scene, "parameters.support_radius", 0.025);
+    weir_scene_set_number(scene, "parameters.time_step", 0.9 * weir_scene_stable_time_step(scene));
+}
+
+WeirScene *weir_bench_scene(WeirBenchCase bench_case, uint32_t count)
+{
+    WeirScene *scene = weir_scene_create();
+    if (!scene) return NULL;
+    if (bench_case == WEIR_BENCH_ARTICLE) {
+        set_article_parameters(scene);
+    } else {
+        set_n20_parameters(scene);
+    }
+    double spacing[3];
+    weir_scene_get_parameter(scene, "particle_spacing", spacing);
+    uint32_t columns = block_columns(count), rows = count / columns;
+    double width = columns * spacing[0], height = rows * spacing[0];
+    // The tutorial's tank is 2 m wide and high; a larger block gets a larger tank.
+    double tank_width = fmax(2.0, 1.5 * width), tank_height = fmax(2.0, 1.5 * height);
+    double min[3] = {-0.5 * tank_width, -0.5 * tank_height, 0.0};
+    double max[3] = {0.5 * tank_width, 0.5 * tank_height, 0.0};
+    weir_scene_set_string(scene, "title", bench_case == WEIR_BENCH_ARTICLE ? "article" : "n20");
+    weir_scene_set_domain(scene, min, max);
+    weir_scene_add_box(scene, min, (double[3]){min[0] + width, min[1] + height, 0.0}, NULL);
+    return scene;
+}
