@@ -21,7 +21,7 @@ fn body_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) part
     body.place = to_clip(to_pixels(position[particle]) + corner * radius);
     body.offset = corner;
     // From further down the map: darker and richer than the discs on top. A diverging map has no "further down".
-    body.color = color_map(select(0.62 * t, t, frame.color_by == 2u));
+    body.color = color_map(select(0.72 * t, t, frame.color_by == 2u));
     return body;
 }
 
@@ -33,8 +33,8 @@ fn body_fragment(body: Body) -> @location(0) vec4f {
     let far = max(1.0 - part, 0.0);
     // Water and its light end at the walls.
     let share = clamp(0.5 - domain_distance(body.place.xy), 0.0, 1.0);
-    let alpha = 0.42 * near * near * share;
+    let alpha = 0.5 * near * near * share;
     let light = 0.16 * body.glow * far * far * far * share;
     // The light covers a little, so that many glows in one place do not add up to white.
-    return vec4f(to_target(body.color * 0.62, alpha) + to_target(body.color, light), min(alpha + 0.8 * light, 1.0));
+    return vec4f(to_target(body.color * 0.72, alpha) + to_target(body.color, light), min(alpha + 0.8 * light, 1.0));
 }
