@@ -136,6 +136,25 @@ static WeirStatus check_values(WeirScene *scene)
     return check_count(scene);
 }
 
+double weir_scene_largest_speed(const WeirScene *scene)
+{
+    double largest = 0.0;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        const WeirFluid *fluid = &scene->fluid[n];
+        double speed2 = 0.0; // v^2 = v0^2 + 2 g (fall)
+        for (int axis = 0; axis < 2; ++axis) {
+            bool ball = fluid->shape == WEIR_SHAPE_BALL;
+            double low = ball ? fluid->center[axis] - fluid->radius : fluid->min[axis];
+            double high = ball ? fluid->center[axis] + fluid->radius : fluid->max[axis];
+            double gravity = scene->parameters.gravity[axis];
+            double fall = gravity < 0.0 ? high - scene->domain_min[axis] : scene->domain_max[axis] - low;
+            speed2 += fluid->velocity[axis] * fluid->velocity[axis] + 2.0 * fabs(gravity) * fmax(fall, 0.0);
+        }
+        largest = fmax(largest, sqrt(speed2));
+    }
+    return largest;
+}
+
 void weir_scene_advise(WeirScene *scene)
 {
     double stable = weir_scene_stable_time_step(scene);

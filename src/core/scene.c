@@ -64,7 +64,7 @@ void weir_scene_domain(const WeirScene *scene, double min[3], double max[3])
 
 double weir_scene_stable_time_step(const WeirScene *scene)
 {
-    return weir_stable_time_step(&scene->parameters);
+    return weir_stable_time_step(&scene->parameters, weir_scene_largest_speed(scene));
 }
 
 WeirStatus weir_scene_get_parameter(const WeirScene *scene, const char *name, double values[3])

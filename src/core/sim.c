@@ -208,7 +208,7 @@ WeirStatus weir_sim_poll(WeirSim *sim)
     if (status) return stop(sim, status, &sim->solver->message);
     if (health.bad_particles == 0) return WEIR_OK;
     const WeirParameters *parameters = &sim->scene->parameters;
-    double stable = weir_stable_time_step(parameters);
+    double stable = weir_scene_stable_time_step(sim->scene);
     return sim->status = weir_fail(
                &sim->error, WEIR_ERROR_UNSTABLE,
                "step %llu: the fluid blew up: particles faster than %.3g m/s or not finite. "
