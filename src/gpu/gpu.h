@@ -10,8 +10,8 @@ WGPUDevice weir_gpu_wgpu_device(WeirGpu *gpu);
 WGPUQueue weir_gpu_wgpu_queue(WeirGpu *gpu);
 WGPUInstance weir_gpu_wgpu_instance(WeirGpu *gpu);
 
-// The buffers of a simulation on the GPU, for drawing. One element per particle, all in the same (sorted) order,
-// which changes every step.
+// The buffers of a simulation on the GPU, for drawing. One element per particle, all in the same (sorted)
+// order, which changes every step.
 typedef struct WeirGpuParticles {
     WeirGpu *gpu;
     WGPUBuffer position; // array<vec2f>, m, newest

@@ -1,0 +1,8 @@
+// Workgroups are counted row by row: a dispatch may be two-dimensional, because one dimension ends at 65,535.
+fn workgroup_index(workgroup: vec3u, workgroups: vec3u) -> u32 {
+    return workgroup.y * workgroups.x + workgroup.x;
+}
+
+fn thread_index(workgroup: vec3u, workgroups: vec3u, local: u32) -> u32 {
+    return workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE + local;
+}

@@ -1,0 +1,40 @@
+// wgpu-native: the only file that uses its extensions (wgpu.h).
+#include "gpu/platform.h"
+#include <webgpu/wgpu.h>
+
+bool weir_platform_can_wait(void)
+{
+    return true;
+}
+
+bool weir_platform_wait(WeirGpu *gpu)
+{
+    // wgpuInstanceWaitAny is not implemented there.
+    if (gpu->device && gpu->status == WEIR_OK) wgpuDevicePoll(gpu->device, true, NULL);
+    if (gpu->instance) wgpuInstanceProcessEvents(gpu->instance);
+    return true;
+}
+
+void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands)
+{
+    uint64_t *slot = &gpu->submits[gpu->submit_count % WEIR_MAX_SUBMITS];
+    if (gpu->submit_count >= WEIR_MAX_SUBMITS) {
+        WGPUSubmissionIndex oldest = *slot;
+        wgpuDevicePoll(gpu->device, true, &oldest);
+        if (gpu->status != WEIR_OK) return;
+    }
+    *slot = wgpuQueueSubmitForIndex(gpu->queue, 1, &commands);
+    ++gpu->submit_count;
+}
+
+WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModuleDescriptor *descriptor,
+                                             bool trusted)
+{
+    if (!trusted) return wgpuDeviceCreateShaderModule(gpu->device, descriptor);
+    return wgpuDeviceCreateShaderModuleTrusted(gpu->device, descriptor, WGPUShaderRuntimeChecks_None);
+}
+
+double weir_platform_timestamp_period(WeirGpu *gpu)
+{
+    return wgpuQueueGetTimestampPeriod(gpu->queue);
+}

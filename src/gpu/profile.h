@@ -1,0 +1,24 @@
+// Milliseconds per pass: now and then one step runs with a compute pass of its own, and a pair of timestamps,
+// for each pass.
+#pragma once
+
+#include "gpu/passes.h"
+
+typedef struct WeirProfile WeirProfile;
+
+// NULL where the device gives no timestamps or memory runs out: all calls then do nothing.
+WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report);
+void weir_profile_destroy(WeirProfile *profile);
+// True if a step may be measured: none is under way.
+bool weir_profile_ready(const WeirProfile *profile);
+// Starts to measure a step; each pass is then recorded between begin and end.
+void weir_profile_start(WeirProfile *profile);
+WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, WeirPass pass,
+                                               WGPUCommandEncoder encoder);
+void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder);
+// Ends the measured step: before and after its commands are submitted.
+void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder);
+void weir_profile_submitted(WeirProfile *profile);
+// Takes times that have arrived.
+void weir_profile_poll(WeirProfile *profile);
+uint32_t weir_profile_times(const WeirProfile *profile, WeirPassTime *times, uint32_t capacity);

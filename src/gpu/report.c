@@ -1,0 +1,70 @@
+#include "gpu/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct WeirReport {
+    WeirGpu *gpu;
+    uint32_t pending; // callbacks that have not come yet
+    bool orphaned;    // nobody but the callbacks knows this report any more
+    WeirStatus status;
+    WeirMessage message;
+};
+
+static const WGPUErrorFilter filters[] = {WGPUErrorFilter_Internal, WGPUErrorFilter_OutOfMemory,
+                                          WGPUErrorFilter_Validation};
+enum { FILTER_COUNT = sizeof filters / sizeof *filters };
+
+WeirReport *weir_report_create(WeirGpu *gpu)
+{
+    WeirReport *report = calloc(1, sizeof *report);
+    if (report) report->gpu = gpu;
+    return report;
+}
+
+void weir_report_destroy(WeirReport *report)
+{
+    if (!report) return;
+    report->orphaned = true;
+    if (report->pending == 0) free(report);
+}
+
+static void on_scope(WGPUPopErrorScopeStatus status, WGPUErrorType type, WGPUStringView text, void *userdata1,
+                     void *userdata2)
+{
+    WeirReport *report = userdata1;
+    const char *label = userdata2;
+    --report->pending;
+    bool error = status == WGPUPopErrorScopeStatus_Success && type != WGPUErrorType_NoError;
+    if (error && report->status == WEIR_OK) {
+        bool memory = type == WGPUErrorType_OutOfMemory;
+        size_t length = text.data && text.length == WGPU_STRLEN ? strlen(text.data) : text.length;
+        report->status = weir_fail(&report->message, memory ? WEIR_ERROR_MEMORY : WEIR_ERROR_DEVICE,
+                                   "%s: %s%.*s", label, memory ? "no GPU memory, use fewer particles; " : "",
+                                   (int)(length < 400 ? length : 400), text.data ? text.data : "");
+    }
+    if (report->orphaned && report->pending == 0) free(report);
+}
+
+void weir_report_begin(WeirReport *report)
+{
+    for (int n = 0; n < FILTER_COUNT; ++n) wgpuDevicePushErrorScope(report->gpu->device, filters[n]);
+}
+
+void weir_report_end(WeirReport *report, const char *label)
+{
+    report->pending += FILTER_COUNT;
+    for (int n = 0; n < FILTER_COUNT; ++n) {
+        wgpuDevicePopErrorScope(report->gpu->device,
+                                (WGPUPopErrorScopeCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
+                                                                .callback = on_scope,
+                                                                .userdata1 = report,
+                                                                .userdata2 = (void *)(uintptr_t)label});
+    }
+}
+
+WeirStatus weir_report_check(const WeirReport *report, WeirMessage *message)
+{
+    if (report->status != WEIR_OK) *message = report->message;
+    return report->status;
+}

@@ -1,0 +1,31 @@
+// A browser: nothing blocks, callbacks come between frames.
+#include "gpu/platform.h"
+
+bool weir_platform_can_wait(void)
+{
+    return false;
+}
+
+bool weir_platform_wait(WeirGpu *gpu)
+{
+    (void)gpu;
+    return false;
+}
+
+void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands)
+{
+    wgpuQueueSubmit(gpu->queue, 1, &commands);
+}
+
+WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModuleDescriptor *descriptor,
+                                             bool trusted)
+{
+    (void)trusted; // browsers always check
+    return wgpuDeviceCreateShaderModule(gpu->device, descriptor);
+}
+
+double weir_platform_timestamp_period(WeirGpu *gpu)
+{
+    (void)gpu;
+    return 1.0; // WebGPU's timestamps are nanoseconds
+}
