@@ -31,5 +31,5 @@ fn background_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let share = clamp(0.5 - domain_distance(place.xy), 0.0, 1.0);
     // Half a step of 8 bits of noise: without it the gradient shows bands.
     let noise = (pixel_noise(vec2u(place.xy)) - 0.5) / 255.0;
-    return vec4f(to_target(mix(outside, inside, share) * vignette + noise, 1.0), 1.0);
+    return vec4f(to_target(mix(outside, inside, share) * vignette + noise), 1.0);
 }

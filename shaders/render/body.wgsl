@@ -6,35 +6,38 @@ const glow_spread = 0.9; // a glow reaches so much further than the body
 
 struct Body {
     @builtin(position) place: vec4f,
-    @location(0) offset: vec2f, // from the centre, 1 at the edge
+    @location(0) offset: vec2f,                             // from the centre, 1 at the edge
     @location(1) @interpolate(flat) color: vec3f,
-    @location(2) @interpolate(flat) glow: f32,
+    @location(2) @interpolate(flat) glow: vec2f,            // strength, squared edge of the glow in body radii
 }
 
 @vertex
 fn body_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Body {
     let t = color_value(particle);
-    let corner = square_corner(vertex);
+    let glow = smoothstep(0.45, 1.0, t);
+    let spread = 1.0 + glow_spread * glow;
+    let radius = frame.body_radius * spread;
+    // Water and its light end at the walls.
+    let middle = to_pixels(position[particle]);
+    let low = to_pixels(vec2f(frame.domain_min.x, frame.domain_max.y)) - frame.particle_radius;
+    let high = to_pixels(vec2f(frame.domain_max.x, frame.domain_min.y)) + frame.particle_radius;
+    let corner = clamp(middle + square_corner(vertex) * radius, low, high);
     var body: Body;
-    body.glow = smoothstep(0.45, 1.0, t);
-    let radius = frame.body_radius * (1.0 + glow_spread * body.glow);
-    body.place = to_clip(to_pixels(position[particle]) + corner * radius);
-    body.offset = corner;
+    body.place = to_clip(corner);
+    body.offset = (corner - middle) / radius;
     // From further down the map: darker and richer than the discs on top. A diverging map has no "further down".
-    body.color = color_map(select(0.72 * t, t, frame.color_by == 2u));
+    body.color = to_target(color_map(select(0.72 * t, t, frame.color_by == 2u)));
+    body.glow = vec2f(0.16 * glow, spread * spread);
     return body;
 }
 
 @fragment
 fn body_fragment(body: Body) -> @location(0) vec4f {
     let part = dot(body.offset, body.offset);
-    let spread = 1.0 + glow_spread * body.glow;
-    let near = max(1.0 - part * spread * spread, 0.0);
+    let near = max(1.0 - part * body.glow.y, 0.0);
     let far = max(1.0 - part, 0.0);
-    // Water and its light end at the walls.
-    let share = clamp(0.5 - domain_distance(body.place.xy), 0.0, 1.0);
-    let alpha = 0.5 * near * near * share;
-    let light = 0.16 * body.glow * far * far * far * share;
+    let alpha = 0.5 * near * near;
+    let light = body.glow.x * far * far * far;
     // The light covers a little, so that many glows in one place do not add up to white.
-    return vec4f(to_target(body.color * 0.72, alpha) + to_target(body.color, light), min(alpha + 0.8 * light, 1.0));
+    return vec4f(body.color * (0.72 * alpha + light), min(alpha + 0.8 * light, 1.0));
 }

@@ -60,12 +60,12 @@ fn color_map(t: f32) -> vec3f {
     return unpack4x8unorm(color_maps[frame.color_by * 64u + step / 4u][step % 4u]).rgb;
 }
 
-// sRGB colour times alpha as the target wants it: encoded, or linear where the target encodes (IEC 61966-2-1).
-fn to_target(color: vec3f, alpha: f32) -> vec3f {
-    if frame.linear_target == 0u { return color * alpha; }
+// An sRGB colour as the target wants it: as it is, or linear where the target encodes (IEC 61966-2-1).
+fn to_target(color: vec3f) -> vec3f {
+    if frame.linear_target == 0u { return color; }
     let low = color / 12.92;
     let high = pow((color + 0.055) / 1.055, vec3f(2.4));
-    return select(high, low, color <= vec3f(0.04045)) * alpha;
+    return select(high, low, color <= vec3f(0.04045));
 }
 
 // Signed distance from the domain's border in pixels, negative inside. The border is drawn one particle radius

@@ -47,7 +47,7 @@ fn line_glow(distance: f32) -> f32 {
 fn outline(pixel: vec2f) -> vec4f {
     let distance = domain_distance(pixel);
     let alpha = 0.75 * line_coverage(distance, 1.25 * frame.line_scale);
-    return vec4f(to_target(line_color, alpha) + to_target(line_color, 0.10 * line_glow(distance)), alpha);
+    return vec4f(to_target(line_color) * (alpha + 0.10 * line_glow(distance)), alpha);
 }
 
 fn ring(pixel: vec2f) -> vec4f {
@@ -57,7 +57,7 @@ fn ring(pixel: vec2f) -> vec4f {
     let part = clamp(1.0 + distance / max(frame.tool_radius, 1.0), 0.0, 1.0);
     let fill = mix(0.015, 0.11, frame.tool_pressed) * part * part * clamp(0.5 - distance, 0.0, 1.0);
     let light = mix(0.12, 0.38, frame.tool_pressed) * line_glow(distance) + fill;
-    return vec4f(to_target(ring_color, alpha) + to_target(ring_color, light), alpha);
+    return vec4f(to_target(ring_color) * (alpha + light), alpha);
 }
 
 @fragment

@@ -14,7 +14,7 @@ fn particles_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     var disc: Disc;
     disc.place = to_clip(to_pixels(position[particle]) + corner);
     disc.offset = corner;
-    disc.color = color_map(color_value(particle));
+    disc.color = to_target(color_map(color_value(particle)));
     return disc;
 }
 
@@ -42,5 +42,5 @@ fn particles_fragment(disc: Disc) -> @location(0) vec4f {
     let rim = 1.0 - 0.38 * detail * smoothstep(0.35, 1.05, part);
     let from_light = length(disc.offset / radius + vec2f(0.42, 0.42));
     let light = 0.30 * detail * (1.0 - smoothstep(0.0, 0.36, from_light));
-    return vec4f(to_target(mix(disc.color * rim, vec3f(1.0), light), alpha), alpha);
+    return vec4f(mix(disc.color * rim, vec3f(1.0), light) * alpha, alpha);
 }

@@ -219,7 +219,7 @@ static void fill_frame(WeirFrame *frame, WeirSim *sim, const WeirView *view, uin
         .linear_target = target_encodes(format),
         .pixels_per_meter = view->pixels_per_meter,
         .particle_radius = view->particle_radius * view->pixels_per_meter,
-        .body_radius = fmaxf(1.7f * parameters->particle_spacing * view->pixels_per_meter, 1.5f),
+        .body_radius = fmaxf(1.5f * parameters->particle_spacing * view->pixels_per_meter, 1.5f),
         .line_scale = fminf(fmaxf((float)(width < height ? width : height) / 1000.0f, 1.0f), 4.0f),
         .rest_density = parameters->rest_density,
     };
