@@ -20,7 +20,7 @@ WEIR_NUMBER(negative_pressure, "1", 0.0, 0.0, 1.0, 1,
             "Share of a negative pressure that is kept: 0 clamps tension to zero, 1 keeps it all.")
 WEIR_NUMBER(restitution, "1", 0.5, 0.0, 1.0, 1,
             "Share of the normal speed that a particle keeps when a wall reflects it.")
-WEIR_NUMBER(time_step, "s", 0.0005, 1e-7, 0.1, 1, "Simulated time of one step.")
+WEIR_NUMBER(time_step, "s", 0.0003, 1e-7, 0.1, 1, "Simulated time of one step.")
 WEIR_NUMBER(time_scale, "1", 1.0, 0.01, 10.0, 1, "Simulated seconds per wall second that a live run aims at.")
 WEIR_CHOICE(kernels, "consistent|tutorial", 0, 1,
             "consistent: spiky kernel for density and pressure; tutorial: poly6 density with spiky pressure, "
