@@ -18,7 +18,7 @@ typedef struct DumpFile {
 
 static bool fail(const char *path, char *message, size_t message_size)
 {
-    snprintf(message, message_size, "--dump %s: cannot be written: %s", path, strerror(errno));
+    snprintf(message, message_size, "--dump %.200s: cannot be written: %s", path, strerror(errno));
     return false;
 }
 

@@ -46,7 +46,9 @@ static int finish(int status)
 
 int main(int argument_count, char **arguments)
 {
-    signal(SIGPIPE, SIG_IGN); // a closed pipe is a message and an exit status
+    // A closed pipe and a file that is too large are a message and an exit status.
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     if (argument_count < 2) {
         print_help(stderr);
         return WEIR_EXIT_INPUT;
