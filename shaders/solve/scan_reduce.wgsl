@@ -5,12 +5,16 @@
 @group(0) @binding(BINDING_cell_count) var<storage, read> cell_count: array<vec4u>;
 @group(0) @binding(BINDING_block_sum) var<storage, read_write> block_sum: array<u32>;
 
-var<workgroup> total: atomic<u32>;
+var<workgroup> total: atomic<u32>; // wgpu-native does not zero it
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scan_reduce(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
                @builtin(local_invocation_index) local: u32) {
     let block = workgroup_index(workgroup, workgroups);
+    if local == 0u {
+        atomicStore(&total, 0u);
+    }
+    workgroupBarrier();
     var sum = vec4u(0u);
     if block < SCAN_BLOCKS {
         for (var k = 0u; k < SCAN_VECTORS; k++) {

@@ -7,13 +7,17 @@
 @group(0) @binding(BINDING_block_sum) var<storage, read> block_sum: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read_write> cell_start: array<vec4u>;
 
-var<workgroup> before: atomic<u32>;
+var<workgroup> before: atomic<u32>; // wgpu-native does not zero it
 var<workgroup> thread_sum: array<u32, WORKGROUP_SIZE>;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
               @builtin(local_invocation_index) local: u32) {
     let block = min(workgroup_index(workgroup, workgroups), SCAN_BLOCKS - 1u);
+    if local == 0u {
+        atomicStore(&before, 0u);
+    }
+    workgroupBarrier();
     var earlier = 0u;
     for (var b = local; b < block; b += WORKGROUP_SIZE) {
         earlier += block_sum[b];

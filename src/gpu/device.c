@@ -180,7 +180,7 @@ WeirGpu *weir_gpu_create(const WeirGpuOptions *options)
     if (options) gpu->options = *options;
     gpu->status = WEIR_PENDING;
     gpu->backend = (WeirGpuBackend){weir_mueller_backend, gpu};
-    gpu->instance = wgpuCreateInstance(NULL);
+    gpu->instance = weir_platform_create_instance();
     if (!gpu->instance) {
         fail(gpu, WEIR_ERROR_DEVICE, "WebGPU is not available here; use the CPU backend",
              (WGPUStringView){NULL, 0});

@@ -2,6 +2,15 @@
 #include "gpu/platform.h"
 #include <webgpu/wgpu.h>
 
+WGPUInstance weir_platform_create_instance(void)
+{
+    // Vulkan, Metal and DirectX 12: OpenGL's compute shaders fall short, and looking for it makes drivers
+    // print.
+    WGPUInstanceExtras extras = {.chain.sType = (WGPUSType)WGPUSType_InstanceExtras,
+                                 .backends = WGPUInstanceBackend_Primary};
+    return wgpuCreateInstance(&(WGPUInstanceDescriptor){.nextInChain = &extras.chain});
+}
+
 bool weir_platform_can_wait(void)
 {
     return true;

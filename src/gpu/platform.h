@@ -3,6 +3,8 @@
 
 #include "gpu/device.h"
 
+// NULL where there is no WebGPU.
+WGPUInstance weir_platform_create_instance(void);
 // True if weir_platform_wait() blocks and callbacks come only from within webgpu.h calls.
 bool weir_platform_can_wait(void);
 // Blocks until the queued work is done and its callbacks ran. Returns false, at once, where nothing may

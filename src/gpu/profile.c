@@ -43,10 +43,7 @@ void weir_profile_destroy(WeirProfile *profile)
     if (!profile) return;
     weir_readback_destroy(profile->readback);
     weir_gpu_destroy_buffer(profile->gpu, profile->resolved, RESOLVE_SIZE);
-    if (profile->queries) {
-        wgpuQuerySetDestroy(profile->queries);
-        wgpuQuerySetRelease(profile->queries);
-    }
+    if (profile->queries) wgpuQuerySetRelease(profile->queries);
     free(profile);
 }
 

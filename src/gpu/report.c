@@ -11,8 +11,8 @@ struct WeirReport {
     WeirMessage message;
 };
 
-static const WGPUErrorFilter filters[] = {WGPUErrorFilter_Internal, WGPUErrorFilter_OutOfMemory,
-                                          WGPUErrorFilter_Validation};
+// wgpu-native aborts on the Internal filter; such errors end up in device.c.
+static const WGPUErrorFilter filters[] = {WGPUErrorFilter_OutOfMemory, WGPUErrorFilter_Validation};
 enum { FILTER_COUNT = sizeof filters / sizeof *filters };
 
 WeirReport *weir_report_create(WeirGpu *gpu)

@@ -1,6 +1,11 @@
 // A browser: nothing blocks, callbacks come between frames.
 #include "gpu/platform.h"
 
+WGPUInstance weir_platform_create_instance(void)
+{
+    return wgpuCreateInstance(NULL);
+}
+
 bool weir_platform_can_wait(void)
 {
     return false;
