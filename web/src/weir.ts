@@ -1,5 +1,9 @@
-// The typed API over weir.wasm: the contract between the page and the engine.
-// (Signatures; the bodies follow in the next commits.)
+// The typed API over weir.wasm: the contract between the page and the engine. Every check and every message comes from
+// the C core; this file moves values.
+
+import { wasiImports } from './wasi.ts';
+import { WebGpuImports, type Canvas } from './webgpu_imports.ts';
+import { WeirMemory, type WeirExports } from './weir_memory.ts';
 
 export type ParameterInfo = {
   name: string;
@@ -47,79 +51,506 @@ export type View = {
   toolPressed: number; // 0 to 1
 };
 
-export declare class WeirError extends Error {
+export class WeirError extends Error {
   readonly status: Status;
-  constructor(status: Status, message: string);
+
+  constructor(status: Status, message: string) {
+    super(message);
+    this.name = 'WeirError';
+    this.status = status;
+  }
 }
 
-export declare class Weir {
-  // A URL or string is fetched; bytes or a compiled module are instantiated. `gpu` null: no WebGPU (Node, tests);
-  // left out: navigator.gpu if there is one.
-  static load(source: URL | string | BufferSource | WebAssembly.Module, options?: { gpu?: GPU | null }): Promise<Weir>;
+// What the objects below share.
+type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly webgpu: WebGpuImports; weir: Weir };
+
+const OUT_OF_MEMORY = 'memory ran out';
+const DIAGNOSTIC_COUNT = 14;
+const MAX_PASSES = 32;
+
+export class Weir {
   readonly version: string;
   readonly parameters: ParameterInfo[];
-  readonly memoryBytes: number; // of the wasm memory
-  loadScene(document: unknown): Scene; // throws WeirError
-  createGpu(options?: { lowPower?: boolean; timestamps?: boolean }): Gpu; // throws WeirError if memory runs out
-  createSim(scene: Scene, options?: { gpu?: Gpu; maxSteps?: number; maxLag?: number }): Sim; // throws WeirError
-  createRenderer(gpu: Gpu, canvas: HTMLCanvasElement | OffscreenCanvas): Renderer; // throws WeirError
-  colorMap(colorBy: ColorBy): Uint8Array; // 256 * 3 bytes, sRGB
+  readonly #context: Context;
+
+  private constructor(context: Context) {
+    this.#context = context;
+    context.weir = this;
+    this.version = context.memory.text(context.c.weir_web_version());
+    this.parameters = readParameters('[' + context.memory.text(context.c.weir_web_parameters()));
+  }
+
+  // A URL or string is fetched; bytes or a compiled module are instantiated. `gpu` null: no WebGPU (tests); left out:
+  // navigator.gpu if there is one.
+  static async load(
+    source: URL | string | BufferSource | WebAssembly.Module, options: { gpu?: GPU | null } = {},
+  ): Promise<Weir> {
+    const module = await compile(source);
+    const browser = typeof navigator === 'undefined' ? undefined : (navigator.gpu as GPU | undefined);
+    const webgpu = new WebGpuImports(options.gpu === undefined ? (browser ?? null) : options.gpu);
+    const instance = await WebAssembly.instantiate(module, wasiImports(module, { webgpu: webgpu.functions }));
+    const c = instance.exports as unknown as WeirExports;
+    webgpu.attach(c);
+    c._initialize();
+    return new Weir({ memory: new WeirMemory(c), c, webgpu, weir: null as unknown as Weir });
+  }
+
+  // Bytes of the program's memory, which grows with the scenes and never shrinks.
+  get memoryBytes(): number {
+    return this.#context.c.memory.buffer.byteLength;
+  }
+
+  // Sets every value of a parsed scene document by its path. Throws WeirError with the core's message.
+  loadScene(document: unknown): Scene {
+    const scene = new Scene(this.#context);
+    try {
+      scene.setAll('', document);
+    } catch (error) {
+      scene.destroy();
+      throw error;
+    }
+    return scene;
+  }
+
+  // Starts to look for a device; see Gpu.ready().
+  createGpu(options: { lowPower?: boolean; timestamps?: boolean } = {}): Gpu {
+    return new Gpu(this.#context, options.lowPower ?? false, options.timestamps ?? true);
+  }
+
+  // On the GPU if one is given, else with the C solver. The scene is copied. Throws WeirError.
+  createSim(scene: Scene, options: { gpu?: Gpu; maxSteps?: number; maxLag?: number } = {}): Sim {
+    return new Sim(this.#context, scene, options);
+  }
+
+  // Draws into the canvas, which belongs to the renderer from then on. Throws WeirError.
+  createRenderer(gpu: Gpu, canvas: Canvas): Renderer {
+    return new Renderer(this.#context, gpu, canvas);
+  }
+
+  // 256 colours, 3 bytes each, sRGB: the shader's own map.
+  colorMap(colorBy: ColorBy): Uint8Array {
+    const { memory, c } = this.#context;
+    return memory.scratch(256 * 3, (at) => {
+      c.weir_web_color_map(colorBy, at);
+      return memory.bytes.slice(at, at + 256 * 3);
+    });
+  }
+
+  // Handles of WebGPU objects in use: for tests.
+  get liveGpuObjects(): number {
+    return this.#context.webgpu.liveObjects;
+  }
 }
 
-export declare class Gpu {
-  ready(): Promise<void>; // throws WeirError
-  poll(): Status;
-  readonly device: string;
-  readonly isSoftware: boolean;
-  readonly memory: number; // bytes that simulations hold on the device
-  readonly error: string;
-  readonly nativeDevice: GPUDevice | null; // for tests
-  destroy(): void;
+async function compile(source: URL | string | BufferSource | WebAssembly.Module): Promise<WebAssembly.Module> {
+  if (source instanceof WebAssembly.Module) return source;
+  if (typeof source !== 'string' && !(source instanceof URL)) return WebAssembly.compile(source);
+  const response = await fetch(source);
+  if (!response.ok) throw new WeirError(Status.input, `${source}: ${response.status} ${response.statusText}`);
+  // Streaming needs the right content type, which not every server sends.
+  const streams = response.headers.get('content-type') === 'application/wasm';
+  return streams ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-export declare class Scene {
-  readonly title: string;
-  readonly method: string;
-  readonly dimension: number;
+function readParameters(json: string): ParameterInfo[] {
+  type Raw = Omit<ParameterInfo, 'choices' | 'live'> & { choices: string; live: number };
+  return (JSON.parse(json) as Raw[]).map((raw) => {
+    const choices = raw.choices === '' ? [] : raw.choices.split('|');
+    return { ...raw, choices, maximum: raw.kind === 'choice' ? choices.length - 1 : raw.maximum, live: raw.live !== 0 };
+  });
+}
+
+export class Gpu {
+  readonly pointer: number; // WeirGpu in wasm memory
+  readonly #context: Context;
+  #alive = true;
+
+  constructor(context: Context, lowPower: boolean, timestamps: boolean) {
+    this.#context = context;
+    this.pointer = context.c.weir_web_gpu_create(lowPower ? 1 : 0, timestamps ? 1 : 0);
+    if (this.pointer === 0) throw new WeirError(Status.memory, OUT_OF_MEMORY);
+  }
+
+  // Resolves when the device is there; throws WeirError if there is none.
+  async ready(): Promise<void> {
+    let status = this.poll();
+    while (status === Status.pending) {
+      await new Promise((resolve) => setTimeout(resolve, 1));
+      if (!this.#alive) throw new WeirError(Status.device, 'the GPU was destroyed while it started');
+      status = this.poll();
+    }
+    if (status !== Status.ok) throw new WeirError(status, this.error);
+  }
+
+  // Lets callbacks run. Once per frame.
+  poll(): Status {
+    return this.#context.c.weir_gpu_poll(this.pointer);
+  }
+
+  get device(): string {
+    return this.#context.memory.text(this.#context.c.weir_gpu_device(this.pointer));
+  }
+
+  get isSoftware(): boolean {
+    return this.#context.c.weir_gpu_is_software(this.pointer) !== 0;
+  }
+
+  get memory(): number {
+    return this.#context.c.weir_web_gpu_memory(this.pointer);
+  }
+
+  get error(): string {
+    return this.#context.memory.text(this.#context.c.weir_gpu_error(this.pointer));
+  }
+
+  // The browser's own device, null until it is there: for tests.
+  get nativeDevice(): GPUDevice | null {
+    const handle = this.#context.c.weir_gpu_wgpu_device(this.pointer);
+    return (this.#context.webgpu.object(handle) as GPUDevice | undefined) ?? null;
+  }
+
+  destroy(): void {
+    if (this.#alive) this.#context.c.weir_gpu_destroy(this.pointer);
+    this.#alive = false;
+  }
+}
+
+export class Scene {
+  readonly pointer: number; // WeirScene in wasm memory
+  readonly #context: Context;
+  #alive = true;
+
+  constructor(context: Context, pointer?: number) {
+    this.#context = context;
+    this.pointer = pointer ?? context.c.weir_scene_create();
+    if (this.pointer === 0) throw new WeirError(Status.memory, OUT_OF_MEMORY);
+  }
+
+  get title(): string {
+    return this.#context.memory.text(this.#context.c.weir_scene_title(this.pointer));
+  }
+
+  get method(): string {
+    return this.#context.memory.text(this.#context.c.weir_scene_method(this.pointer));
+  }
+
+  get dimension(): number {
+    return this.#context.c.weir_scene_dimension(this.pointer);
+  }
+
+  get particleCount(): number {
+    return this.#context.c.weir_scene_particle_count(this.pointer) >>> 0;
+  }
+
+  get stableTimeStep(): number {
+    return this.#context.c.weir_scene_stable_time_step(this.pointer);
+  }
+
+  // Advice of the last check().
+  get warning(): string {
+    return this.#context.memory.text(this.#context.c.weir_scene_warning(this.pointer));
+  }
+
+  get domain(): { min: [number, number, number]; max: [number, number, number] } {
+    const { memory, c } = this.#context;
+    return memory.scratch(48, (at) => {
+      c.weir_web_scene_domain(this.pointer, at);
+      const bounds = memory.doubles(at, 6);
+      return { min: triple(bounds, 0), max: triple(bounds, 3) };
+    });
+  }
+
+  // One number, three of a vector, the index of a choice.
+  parameter(name: string): number[] {
+    return readParameter(this.#context, this.pointer, name);
+  }
+
+  // A string names a choice.
+  setParameter(name: string, values: number | readonly number[] | string): void {
+    this.setAll(`parameters.${name}`, values);
+  }
+
+  // The walk of a parsed document, the same as the native loader's (src/json/json_scene.c): objects extend the path by
+  // ".key", lists of objects by "[index]"; anything that no scene holds is refused by the core, by name.
+  setAll(path: string, value: unknown): void {
+    if (typeof value === 'number') return this.#setNumber(path, value);
+    if (typeof value === 'string') return this.#setString(path, value);
+    if (Array.isArray(value)) return this.#setList(path, value);
+    if (typeof value !== 'object' || value === null) return this.#refuse(path, String(value));
+    const entries = Object.entries(value);
+    if (entries.length === 0 && path !== '') return this.#refuse(path, 'an empty object');
+    for (const [key, item] of entries) {
+      // A key that would be read as a path of its own is quoted, so that the core finds it unknown.
+      const name = key === '' || /[.[\]"]/.test(key) ? `"${key}"` : key;
+      this.setAll(path === '' ? name : `${path}.${name}`, item);
+    }
+  }
+
+  #setNumber(path: string, value: number): void {
+    const { memory, c } = this.#context;
+    this.#throwIf(memory.withText(path, (at) => c.weir_scene_set_number(this.pointer, at, value)));
+  }
+
+  #setString(path: string, value: string): void {
+    const { memory, c } = this.#context;
+    if (value.includes('\0')) return this.#refuse(path, 'a text with a null character');
+    const set = (at: number) =>
+      memory.withText(value, (text) => c.weir_scene_set_string(this.pointer, at, text));
+    this.#throwIf(memory.withText(path, set));
+  }
+
+  #setList(path: string, list: readonly unknown[]): void {
+    const { memory, c } = this.#context;
+    const isNumber = (item: unknown) => typeof item === 'number';
+    if (list.every(isNumber)) {
+      if (list.length > 16) return this.#refuse(path, 'a long list');
+      const set = (at: number) =>
+        memory.withDoubles(list as number[], (values) =>
+          c.weir_scene_set_numbers(this.pointer, at, values, list.length));
+      return this.#throwIf(memory.withText(path, set));
+    }
+    if (isNumber(list[0])) return this.#refuse(path, 'a list of mixed types');
+    list.forEach((item, index) => this.setAll(`${path}[${index}]`, item));
+  }
+
+  #refuse(path: string, typeName: string): void {
+    const { memory, c } = this.#context;
+    const refuse = (at: number) =>
+      memory.withText(typeName, (text) => c.weir_scene_refuse(this.pointer, at, text));
+    this.#throwIf(memory.withText(path, refuse));
+  }
+
+  // The scene as a whole: some fluid, inside the domain, no overlap, a count that fits. Sets `warning`.
+  check(): void {
+    this.#throwIf(this.#context.c.weir_scene_check(this.pointer));
+  }
+
+  copy(): Scene {
+    return new Scene(this.#context, this.#context.c.weir_scene_copy(this.pointer));
+  }
+
+  destroy(): void {
+    if (this.#alive) this.#context.c.weir_scene_destroy(this.pointer);
+    this.#alive = false;
+  }
+
+  #throwIf(status: Status): void {
+    if (status === Status.ok) return;
+    throw new WeirError(status, this.#context.memory.text(this.#context.c.weir_scene_error(this.pointer)));
+  }
+}
+
+// A field's copy in wasm memory.
+type FieldBlock = { at: number; view: Float32Array };
+
+export class Sim {
+  readonly pointer: number; // WeirSim in wasm memory
   readonly particleCount: number;
-  readonly stableTimeStep: number;
-  readonly warning: string; // of the last check()
-  readonly domain: { min: [number, number, number]; max: [number, number, number] };
-  parameter(name: string): number[]; // one number, three of a vector, the index of a choice
-  setParameter(name: string, values: number | readonly number[] | string): void; // throws; a string names a choice
-  check(): void; // throws
-  copy(): Scene;
-  destroy(): void;
-}
-
-export declare class Sim {
-  readonly particleCount: number;
-  readonly stepCount: number;
-  readonly time: number;
   readonly backend: string; // "cpu" or "gpu"
-  readonly device: string;
-  readonly error: string;
-  readonly warning: string;
-  readonly status: Status;
-  step(steps: number): void; // throws
-  advance(wallSeconds: number): number; // steps taken; throws
-  setMaxSteps(steps: number): void;
-  poll(): Status; // lets GPU callbacks run; the error's text is in .error
-  reset(): void;
-  parameter(name: string): number[]; // as it runs now
-  setParameter(name: string, values: number | readonly number[]): void; // throws; a choice by its index
-  setState(positions: Float32Array, velocities: Float32Array): void; // throws
-  setTool(kind: ToolKind, x: number, y: number, vx: number, vy: number, radius: number, strength: number): void;
-  // By id; a view into wasm memory, valid until the next read() of the same field or until wasm memory grows: use
-  // it at once or copy it. null while the GPU copies.
-  read(field: Field): Float32Array | null;
-  diagnose(countNeighbors: boolean): Diagnostics | null; // null while the GPU copies
-  passTimes(): PassTime[];
-  destroy(): void;
+  readonly #context: Context;
+  readonly #fields: (FieldBlock | undefined)[] = [];
+  #alive = true;
+
+  constructor(context: Context, scene: Scene, options: { gpu?: Gpu; maxSteps?: number; maxLag?: number }) {
+    const { memory, c } = context;
+    this.#context = context;
+    let backend = 0;
+    if (options.gpu) {
+      const status = options.gpu.poll();
+      if (status === Status.pending) throw new WeirError(status, 'the GPU is still starting; await ready() first');
+      backend = c.weir_gpu_backend(options.gpu.pointer);
+      if (backend === 0) throw new WeirError(status, options.gpu.error);
+    }
+    this.pointer = c.weir_web_sim_create(scene.pointer, backend, options.maxSteps ?? 0, options.maxLag ?? 0);
+    if (this.pointer === 0) throw new WeirError(Status.memory, OUT_OF_MEMORY);
+    this.particleCount = c.weir_sim_particle_count(this.pointer) >>> 0;
+    this.backend = memory.text(c.weir_sim_backend(this.pointer));
+    const status = this.status;
+    if (status === Status.ok || status === Status.pending) return;
+    const error = new WeirError(status, this.error);
+    this.destroy();
+    throw error;
+  }
+
+  get stepCount(): number {
+    return this.#context.c.weir_web_sim_step_count(this.pointer);
+  }
+
+  get time(): number {
+    return this.#context.c.weir_sim_time(this.pointer);
+  }
+
+  get device(): string {
+    return this.#context.memory.text(this.#context.c.weir_sim_device(this.pointer));
+  }
+
+  get error(): string {
+    return this.#context.memory.text(this.#context.c.weir_sim_error(this.pointer));
+  }
+
+  get warning(): string {
+    return this.#context.memory.text(this.#context.c.weir_sim_warning(this.pointer));
+  }
+
+  get status(): Status {
+    return this.#context.c.weir_sim_status(this.pointer);
+  }
+
+  step(steps: number): void {
+    this.#throwIf(this.#context.c.weir_sim_step(this.pointer, steps));
+  }
+
+  // Takes the steps due after that much more wall time; returns their number.
+  advance(wallSeconds: number): number {
+    const steps = this.#context.c.weir_web_sim_advance(this.pointer, wallSeconds);
+    if (steps < 0) this.#throwIf(-steps);
+    return steps;
+  }
+
+  setMaxSteps(steps: number): void {
+    this.#context.c.weir_sim_set_max_steps(this.pointer, steps);
+  }
+
+  // Lets GPU callbacks run and looks for faults; the text is in .error.
+  poll(): Status {
+    return this.#context.c.weir_sim_poll(this.pointer);
+  }
+
+  reset(): void {
+    this.#throwIf(this.#context.c.weir_sim_reset(this.pointer));
+  }
+
+  // As it runs now.
+  parameter(name: string): number[] {
+    return readParameter(this.#context, this.#context.c.weir_sim_scene(this.pointer), name);
+  }
+
+  // Of live parameters only; a choice by its index.
+  setParameter(name: string, values: number | readonly number[]): void {
+    const { memory, c } = this.#context;
+    const list = typeof values === 'number' ? [values] : values;
+    const set = (at: number) =>
+      memory.withDoubles(list, (numbers) => c.weir_sim_set_parameter(this.pointer, at, numbers, list.length));
+    this.#throwIf(memory.withText(name, set));
+  }
+
+  // x, y per particle, by id.
+  setState(positions: Float32Array, velocities: Float32Array): void {
+    const { memory, c } = this.#context;
+    const wanted = 2 * this.particleCount;
+    if (positions.length !== wanted || velocities.length !== wanted)
+      throw new WeirError(Status.input,
+        `state: has ${positions.length} and ${velocities.length} numbers; must have ${wanted} each`);
+    const bytes = 4 * wanted;
+    const status = memory.scratch(2 * bytes, (at) => {
+      memory.floats(at, wanted).set(positions);
+      memory.floats(at + bytes, wanted).set(velocities);
+      return c.weir_sim_set_state(this.pointer, at, at + bytes);
+    });
+    this.#throwIf(status);
+  }
+
+  setTool(kind: ToolKind, x: number, y: number, vx: number, vy: number, radius: number, strength: number): void {
+    this.#throwIf(this.#context.c.weir_web_sim_set_tool(this.pointer, kind, x, y, vx, vy, radius, strength));
+  }
+
+  // By id; a view into wasm memory, valid until the next read() of the field or until that memory grows: use it at once
+  // or copy it. null while the GPU copies.
+  read(field: Field): Float32Array | null {
+    const { memory, c } = this.#context;
+    const count = this.particleCount * (field === Field.density || field === Field.pressure ? 1 : 2);
+    const block = (this.#fields[field] ??= { at: memory.allocate(4 * count), view: new Float32Array(0) });
+    const status = c.weir_sim_read(this.pointer, field, block.at, count);
+    if (status === Status.pending) return null;
+    this.#throwIf(status);
+    if (block.view.buffer !== c.memory.buffer) block.view = memory.floats(block.at, count);
+    return block.view;
+  }
+
+  // null while the GPU copies.
+  diagnose(countNeighbors: boolean): Diagnostics | null {
+    const { memory, c } = this.#context;
+    return memory.scratch(8 * DIAGNOSTIC_COUNT, (at) => {
+      const status = c.weir_web_sim_diagnose(this.pointer, countNeighbors ? 1 : 0, at);
+      if (status === Status.pending) return null;
+      this.#throwIf(status);
+      const [step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy] = memory.doubles(at, 6);
+      const [maxSpeed, meanNeighbors, lostParticles, high, low] = memory.doubles(at + 72, 5);
+      return {
+        step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy, maxSpeed, meanNeighbors,
+        lostParticles, momentum: triple(memory.doubles(at + 48, 3), 0), stateHash: hex(high) + hex(low),
+      } as Diagnostics;
+    });
+  }
+
+  // Of the last measured step; empty where the device gives no times.
+  passTimes(): PassTime[] {
+    const { memory, c } = this.#context;
+    return memory.scratch(16 * MAX_PASSES, (at) => {
+      const count = c.weir_web_sim_pass_times(this.pointer, at, MAX_PASSES);
+      const pairs = memory.doubles(at, 2 * count);
+      return Array.from({ length: count }, (_, k) => ({
+        name: memory.text(pairs[2 * k] as number), milliseconds: pairs[2 * k + 1] as number,
+      }));
+    });
+  }
+
+  destroy(): void {
+    if (!this.#alive) return;
+    this.#alive = false;
+    for (const block of this.#fields) if (block) this.#context.memory.free(block.at);
+    this.#context.c.weir_sim_destroy(this.pointer);
+  }
+
+  #throwIf(status: Status): void {
+    if (status !== Status.ok && status !== Status.pending) throw new WeirError(status, this.error);
+  }
 }
 
-export declare class Renderer {
-  // Draws into the canvas at its own canvas.width x canvas.height.
-  draw(sim: Sim, view: View): Status;
-  destroy(): void;
+function readParameter(context: Context, scene: number, name: string): number[] {
+  const { memory, c, weir } = context;
+  const kind = weir.parameters.find((parameter) => parameter.name === name)?.kind;
+  return memory.scratch(24, (at) => {
+    const status = memory.withText(name, (text) => c.weir_scene_get_parameter(scene, text, at));
+    if (status !== Status.ok) throw new WeirError(status, `${name}: unknown parameter`);
+    return Array.from(memory.doubles(at, kind === 'vector' ? 3 : 1));
+  });
+}
+
+function triple(values: Float64Array, from: number): [number, number, number] {
+  return [values[from] as number, values[from + 1] as number, values[from + 2] as number];
+}
+
+function hex(half: number | undefined): string {
+  return (half ?? 0).toString(16).padStart(8, '0');
+}
+
+export class Renderer {
+  readonly #context: Context;
+  readonly #canvas: Canvas;
+  #pointer: number;
+
+  constructor(context: Context, gpu: Gpu, canvas: Canvas) {
+    this.#context = context;
+    this.#canvas = canvas;
+    const id = context.webgpu.registerCanvas(canvas);
+    this.#pointer = context.c.weir_web_renderer_create(gpu.pointer, id);
+    if (this.#pointer === 0)
+      throw new WeirError(Status.device, 'the canvas gives no WebGPU context, or memory ran out');
+  }
+
+  // Queues one frame at canvas.width x canvas.height, in device pixels.
+  draw(sim: Sim, view: View): Status {
+    const canvas = this.#canvas;
+    return this.#context.c.weir_web_renderer_draw(
+      this.#pointer, sim.pointer, canvas.width, canvas.height, view.colorBy, view.colorMin, view.colorMax,
+      view.center[0], view.center[1], view.pixelsPerMeter, view.particleRadius, view.toolPosition[0],
+      view.toolPosition[1], view.toolRadius, view.toolPressed,
+    );
+  }
+
+  destroy(): void {
+    if (this.#pointer !== 0) this.#context.c.weir_web_renderer_destroy(this.#pointer);
+    this.#pointer = 0;
+  }
 }

@@ -1,0 +1,129 @@
+// Adapters for scenes and simulations. JavaScript owns the memory that it hands over; it comes from
+// weir_web_allocate().
+#include "web.h"
+#include "weir/weir.h"
+
+#include <stdlib.h>
+
+WEIR_WEB(weir_web_allocate)
+void *weir_web_allocate(size_t size)
+{
+    return malloc(size);
+}
+
+WEIR_WEB(weir_web_free)
+void weir_web_free(void *memory)
+{
+    free(memory);
+}
+
+WEIR_WEB(weir_web_version)
+const char *weir_web_version(void)
+{
+    return WEIR_VERSION;
+}
+
+// The parameter list as JSON, made by the compiler.
+WEIR_WEB(weir_web_parameters)
+const char *weir_web_parameters(void)
+{
+#define WEB_COMMON(name, unit, help) ",{\"name\":\"" #name "\",\"unit\":\"" unit "\",\"help\":\"" help "\","
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, live, help)                                       \
+    WEB_COMMON(name, unit, help)                                                                             \
+    "\"kind\":\"vector\",\"choices\":\"\",\"default\":[" #x "," #y "," #z "],\"minimum\":" #minimum          \
+    ",\"maximum\":" #maximum ",\"live\":" #live "}"
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, live, help)                                         \
+    WEB_COMMON(name, unit, help)                                                                             \
+    "\"kind\":\"number\",\"choices\":\"\",\"default\":[" #value "],\"minimum\":" #minimum                    \
+    ",\"maximum\":" #maximum ",\"live\":" #live "}"
+#define WEIR_CHOICE(name, names, value, live, help)                                                          \
+    WEB_COMMON(name, "1", help)                                                                              \
+    "\"kind\":\"choice\",\"choices\":\"" names "\",\"default\":[" #value "],\"minimum\":0,\"maximum\":0,"    \
+    "\"live\":" #live "}"
+    static const char list[] =
+#include "core/params.inl"
+        "]";
+    return list + 1; // without the first comma; the reader opens the bracket
+}
+
+WEIR_WEB(weir_web_scene_domain)
+void weir_web_scene_domain(const WeirScene *scene, double bounds[6])
+{
+    weir_scene_domain(scene, bounds, bounds + 3);
+}
+
+WEIR_WEB(weir_web_sim_create)
+WeirSim *weir_web_sim_create(const WeirScene *scene, const WeirBackend *backend, uint32_t max_steps,
+                             double max_lag)
+{
+    return weir_sim_create(scene,
+                           &(WeirSimOptions){.backend = backend, .max_steps = max_steps, .max_lag = max_lag});
+}
+
+WEIR_WEB(weir_web_sim_step_count)
+double weir_web_sim_step_count(const WeirSim *sim)
+{
+    return (double)weir_sim_step_count(sim);
+}
+
+// Steps taken, or -status.
+WEIR_WEB(weir_web_sim_advance)
+int32_t weir_web_sim_advance(WeirSim *sim, double wall_seconds)
+{
+    uint32_t steps = 0;
+    WeirStatus status = weir_sim_advance(sim, wall_seconds, &steps);
+    return status == WEIR_OK || status == WEIR_PENDING ? (int32_t)steps : -(int32_t)status;
+}
+
+WEIR_WEB(weir_web_sim_set_tool)
+WeirStatus weir_web_sim_set_tool(WeirSim *sim, uint32_t kind, float x, float y, float vx, float vy,
+                                 float radius, float strength)
+{
+    return weir_sim_set_tool(
+        sim,
+        &(WeirTool){
+            .kind = kind, .position = {x, y}, .velocity = {vx, vy}, .radius = radius, .strength = strength});
+}
+
+// Fills 14 numbers in the order of WeirDiagnostics; the hash comes as its high and low half.
+WEIR_WEB(weir_web_sim_diagnose)
+WeirStatus weir_web_sim_diagnose(WeirSim *sim, bool count_neighbors, double values[14])
+{
+    WeirDiagnostics found;
+    WeirStatus status = weir_sim_diagnose(sim, count_neighbors, &found);
+    if (status != WEIR_OK) return status;
+    const double numbers[14] = {
+        (double)found.step,
+        found.time,
+        found.density_error_mean,
+        found.density_error_max,
+        found.kinetic_energy,
+        found.potential_energy,
+        found.momentum[0],
+        found.momentum[1],
+        found.momentum[2],
+        found.max_speed,
+        found.mean_neighbors,
+        found.lost_particles,
+        (double)(found.state_hash >> 32),
+        (double)(found.state_hash & 0xFFFFFFFFu),
+    };
+    for (int k = 0; k < 14; k++) values[k] = numbers[k];
+    return status;
+}
+
+// Fills pairs of name (its address) and milliseconds; returns the number of passes.
+WEIR_WEB(weir_web_sim_pass_times)
+uint32_t weir_web_sim_pass_times(const WeirSim *sim, double *pairs, uint32_t capacity)
+{
+    enum { MOST = 32 };
+    WeirPassTime times[MOST];
+    uint32_t count = weir_sim_pass_times(sim, times, capacity < MOST ? capacity : MOST);
+    if (count > capacity) count = capacity;
+    if (count > MOST) count = MOST;
+    for (uint32_t k = 0; k < count; k++) {
+        pairs[2 * k] = (double)(uintptr_t)times[k].name;
+        pairs[2 * k + 1] = times[k].milliseconds;
+    }
+    return count;
+}
