@@ -195,8 +195,8 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
 typedef struct WeirDiagnostics {
     uint64_t step;
     double time;
-    double density_error_mean; // mean of |rho - rho0| / rho0
-    double density_error_max;  // largest (rho - rho0) / rho0: compression
+    double density_error_mean; // mean of max(rho - rho0, 0) / rho0: compression
+    double density_error_max;  // largest of the same
     double kinetic_energy;     // J per metre of depth in 2D
     double potential_energy;   // J, zero at the domain's lowest point along gravity
     double momentum[3];        // kg m/s

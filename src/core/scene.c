@@ -89,8 +89,12 @@ WeirStatus weir_scene_set_parameter_text(WeirScene *scene, const char *name, con
 
 WeirStatus weir_scene_set_domain(WeirScene *scene, const double min[3], const double max[3])
 {
+    double kept[3];
+    memcpy(kept, scene->domain_min, sizeof kept);
     WeirStatus status = weir_scene_set_numbers(scene, "domain.min", min, scene->dimension);
-    return status ? status : weir_scene_set_numbers(scene, "domain.max", max, scene->dimension);
+    if (!status) status = weir_scene_set_numbers(scene, "domain.max", max, scene->dimension);
+    if (status) memcpy(scene->domain_min, kept, sizeof kept); // both or none
+    return status;
 }
 
 // Undoes a piece of which only a part was accepted.

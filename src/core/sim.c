@@ -188,7 +188,9 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
         return weir_fail(&sim->error, WEIR_ERROR_INPUT, "wall_seconds: %g; must be 0 or more", wall_seconds);
     }
     double scale = sim->scene->parameters.time_scale, dt = sim->scene->parameters.time_step;
-    sim->owed = fmin(sim->owed + wall_seconds * scale, sim->max_lag * scale);
+    // Only new time is cut: what is left of the last call is less than a step, and slow motion or a long step
+    // must be able to save up for one.
+    sim->owed += fmin(wall_seconds, sim->max_lag) * scale;
     double due = floor(sim->owed / dt);
     uint32_t steps = due < sim->max_steps ? (uint32_t)due : sim->max_steps;
     // What was not taken is dropped: a simulation that is too slow must slow down, not fall ever further
@@ -305,9 +307,31 @@ WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *
     return configure(sim);
 }
 
+static WeirStatus check_tool(WeirSim *sim, const WeirTool *tool)
+{
+    if ((uint32_t)tool->kind > WEIR_TOOL_STIR) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "tool.kind: %d; must be a WeirToolKind",
+                         (int)tool->kind);
+    }
+    bool finite = isfinite(tool->strength);
+    for (int axis = 0; axis < 2; ++axis)
+        finite = finite && isfinite(tool->position[axis]) && isfinite(tool->velocity[axis]);
+    if (!finite) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                         "tool: position, velocity and strength must be finite");
+    }
+    if (tool->kind != WEIR_TOOL_NONE && !(tool->radius > 0.0f && isfinite(tool->radius))) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "tool.radius: %g m; must be above 0 and finite",
+                         tool->radius);
+    }
+    return WEIR_OK;
+}
+
 WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool)
 {
     if (!sim->solver) return sim->status;
+    WeirStatus status = tool ? check_tool(sim, tool) : WEIR_OK;
+    if (status) return status;
     sim->tool = tool ? *tool : (WeirTool){0};
     weir_constants_set_tool(&sim->constants, &sim->tool);
     return configure(sim);
