@@ -1,12 +1,15 @@
 #include "backend.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #if WEIR_WITH_GPU
 
 static WeirStatus open_gpu(WeirCliBackend *backend, char *message, size_t message_size)
 {
+    // Vulkan drivers look for a Wayland display and print errors where this is not set, as on a server.
+    setenv("XDG_RUNTIME_DIR", "/tmp", 0);
     backend->gpu = weir_gpu_create(NULL);
     if (!backend->gpu) {
         snprintf(message, message_size, "memory ran out");
