@@ -154,21 +154,19 @@ static void shader_map_is_the_library_map(void **state)
     weir_sim_destroy(sim);
 }
 
-// The density of a lone particle is far below the rest density: the ranges put it at chosen places of the
-// maps.
+// Four particles squeezed into one place: compressed, each as much as the others.
 static void each_quantity_uses_its_map(void **state)
 {
     WeirGpu *gpu = *state;
-    const Spot spot = {16.5f, 16.5f};
-    WeirSim *sim = spots_sim(gpu, 1, &spot, NULL, 33, 33);
-    CHECK_SIM(sim, weir_sim_step(sim, 1), WEIR_OK);
-    float *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
-    double rest_density = 1000;
-    assert_true(*density > 1.0f && *density < 900.0f);
-    const float values[WEIR_COLOR_MAPS] = {0.0f, *density, (float)(*density / rest_density - 1.0), 0.0f};
+    const Spot spots[4] = {{16.4f, 16.4f}, {16.6f, 16.4f}, {16.4f, 16.6f}, {16.6f, 16.6f}};
+    WeirSim *sim = spots_sim(gpu, 4, spots, (const float[]){3, 3, 3, 3}, 33, 33);
+    float *density = weir_test_read(sim, WEIR_FIELD_DENSITY),
+          *pressure = weir_test_read(sim, WEIR_FIELD_PRESSURE);
+    assert_true(*density > 1100.0f && *pressure > 1e5f);
+    const float values[WEIR_COLOR_MAPS] = {3.0f, *density, (float)(*density / 1000.0 - 1.0), *pressure};
     for (int by = 0; by < WEIR_COLOR_MAPS; by++) {
         // The value lies at 0.3 of the range.
-        float range = 0.1f + fabsf(values[by]);
+        float range = values[by];
         WeirView view = spots_view(4.0f);
         view.color_by = (WeirColorBy)by;
         view.color_min = values[by] - 0.3f * range;
@@ -182,6 +180,7 @@ static void each_quantity_uses_its_map(void **state)
         weir_image_destroy(&image);
     }
     free(density);
+    free(pressure);
     weir_sim_destroy(sim);
 }
 
