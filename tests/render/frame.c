@@ -42,8 +42,6 @@ static WeirSim *make_state(const WeirScene *scene, WeirGpu *gpu, uint32_t steps)
     if (status != WEIR_OK) fail("simulation on the CPU", weir_sim_error(cpu));
     if (status == WEIR_OK) {
         status = weir_sim_set_state(sim, state.position, state.velocity);
-        // One step on the device fills density and pressure.
-        if (status == WEIR_OK) status = weir_sim_step(sim, 1);
         if (status == WEIR_OK) status = weir_sim_wait(sim);
         if (status != WEIR_OK) fail("simulation on the device", weir_sim_error(sim));
     }
@@ -74,7 +72,7 @@ static WeirView make_view(WeirSim *sim, uint32_t width, uint32_t height, int cou
         .color_min = count > 1 ? strtof(values[1], NULL) : 0.0f,
         .color_max = count > 2 ? strtof(values[2], NULL) : 5.0f,
         .pixels_per_meter = 0.94f * zoom * fminf((float)width / domain_width, (float)height / domain_height),
-        .particle_radius = 0.5f * weir_sim_parameters(sim)->particle_spacing,
+        .particle_radius = 0.58f * weir_sim_parameters(sim)->particle_spacing,
     };
     for (int k = 0; k < 2; k++) {
         view.center[k] = count > 5 ? strtof(values[4 + k], NULL)
