@@ -1,0 +1,124 @@
+// The page's engines, measured in Node the way `weir bench` measures natively: same scenes (apps/cli/bench_scene.c), a
+// warm-up, the median of five batches.
+import { readFileSync } from 'node:fs';
+import { cpus } from 'node:os';
+import { benchAllPairs } from '../web/src/all_pairs.ts';
+import { Weir, type Sim } from '../web/src/weir.ts';
+
+type Case = 'article' | 'n20';
+
+type Row = {
+  scene: string;
+  particles: number;
+  backend: string;
+  device: string;
+  search: string;
+  threads: number;
+  mean_neighbors?: number;
+  ms_per_step: number;
+  particle_steps_per_second: number;
+  real_time_factor: number;
+  frames_per_second: number;
+};
+
+const REPETITIONS = 5;
+const device = `${cpus()[0]?.model.trim() ?? 'CPU'}, Node ${process.version}`;
+
+function rates(particles: number, timeStep: number, seconds: number) {
+  return {
+    ms_per_step: 1e3 * seconds,
+    particle_steps_per_second: particles / seconds,
+    real_time_factor: timeStep / seconds,
+    frames_per_second: 1 / seconds,
+  };
+}
+
+function blockColumns(count: number, aspect: number): number {
+  let columns = Math.floor(Math.sqrt(aspect * count) + 0.5);
+  while (columns > 1 && count % columns !== 0) --columns;
+  return columns > 1 ? columns : count;
+}
+
+function scene(benchCase: Case, count: number, search: string, timeStep: number): object {
+  const [spacing, radius] = benchCase === 'article' ? [0.007, 0.045] : [0.01, 0.025];
+  const aspect = Math.sqrt(2 * count) * spacing <= 2 ? 0.5 : 2;
+  const columns = blockColumns(count, aspect);
+  const size = [columns * spacing, (count / columns) * spacing];
+  const min = size.map((length) => -0.5 * Math.max(2, 1.5 * length));
+  return {
+    title: benchCase,
+    parameters: { particle_spacing: spacing, support_radius: radius, time_step: timeStep, search },
+    domain: { min, max: min.map((low) => -low) },
+    fluid: [{ box: { min, max: min.map((low, axis) => low + size[axis]!) } }],
+  };
+}
+
+function timeSteps(sim: Sim, steps: number): number {
+  const start = performance.now();
+  sim.step(steps);
+  return (performance.now() - start) / 1e3;
+}
+
+// As measure_step() of apps/cli/bench.c. Seconds per step.
+function measureStep(sim: Sim, budget: number): number {
+  let last = 0;
+  let spent = 0;
+  for (let steps = 1; spent < 0.3 * budget; steps *= 2) {
+    const batch = timeSteps(sim, steps);
+    last = batch / steps;
+    spent += batch;
+    if (batch > 0.1 * budget) break;
+  }
+  const steps = Math.min(Math.max(Math.floor(budget / REPETITIONS / Math.max(last, 1e-9)), 1), 1e6);
+  const times: number[] = [];
+  for (spent = 0; times.length < REPETITIONS && (times.length === 0 || spent < 2 * budget); ) {
+    const batch = timeSteps(sim, steps);
+    times.push(batch / steps);
+    spent += batch;
+  }
+  times.sort((a, b) => a - b);
+  const middle = times.length >> 1;
+  return times.length % 2 ? times[middle]! : 0.5 * (times[middle - 1]! + times[middle]!);
+}
+
+// The C solver in wasm, one thread: all pairs and grid, or grid alone.
+export async function measureWasm(path: string, count: number, seconds: number, benchCase: Case = 'article') {
+  const weir = await Weir.load(readFileSync(path), { gpu: null });
+  const rows: Row[] = [];
+  for (const search of benchCase === 'article' ? ['all_pairs', 'grid'] : ['grid']) {
+    const probe = weir.loadScene(scene(benchCase, count, search, 0.0001));
+    const timeStep = benchCase === 'article' ? 0.0008 : 0.5 * probe.stableTimeStep;
+    const loaded = weir.loadScene(scene(benchCase, count, search, timeStep));
+    const sim = weir.createSim(loaded);
+    const step = measureStep(sim, seconds);
+    const neighbors = sim.diagnose(true)?.meanNeighbors;
+    rows.push({
+      scene: benchCase,
+      particles: sim.particleCount,
+      backend: 'wasm',
+      device,
+      search,
+      threads: 1,
+      ...(neighbors === undefined ? {} : { mean_neighbors: neighbors }),
+      ...rates(sim.particleCount, timeStep, step),
+    });
+    sim.destroy();
+    loaded.destroy();
+    probe.destroy();
+  }
+  return rows;
+}
+
+// What a reader of the tutorial would write: plain JavaScript, every particle against every other one.
+export function measureJavaScript(count: number, seconds: number): Row {
+  const found = benchAllPairs(count, seconds);
+  return {
+    scene: 'article',
+    particles: count,
+    backend: 'javascript',
+    device,
+    search: 'all_pairs',
+    threads: 1,
+    ...rates(count, 0.0008, found.msPerStep / 1e3),
+  };
+}
