@@ -12,7 +12,7 @@ fn background_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) v
 fn pixel_noise(pixel: vec2u) -> f32 {
     var state = (pixel.x + pixel.y * 65537u) * 747796405u + 2891336453u;
     state = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return f32((state >> 22u) ^ state & 0xffffu) / 65535.0;
+    return f32(((state >> 22u) ^ state) & 0xffffu) / 65535.0;
 }
 
 @fragment

@@ -4,7 +4,7 @@
 // Instances 0 to 3 are the outline's sides, mitred so that no pixel is drawn twice; 4 is the ring.
 
 const line_color = vec3f(0.38, 0.66, 0.95);
-const ring_color = vec3f(0.62, 0.90, 1.00);
+const ring_color = vec3f(0.52, 0.86, 1.00);
 const glow_width = 14.0; // times frame.line_scale
 
 @vertex

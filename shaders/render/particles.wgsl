@@ -39,7 +39,7 @@ fn particles_fragment(disc: Disc) -> @location(0) vec4f {
     // Big enough discs look like beads: darker rim, a small light from above left.
     let detail = smoothstep(1.5, 5.0, radius);
     let part = distance / radius;
-    let rim = 1.0 - 0.38 * detail * smoothstep(0.35, 1.05, part);
+    let rim = 1.0 - vec3f(0.46, 0.38, 0.28) * (detail * smoothstep(0.35, 1.05, part));
     let from_light = length(disc.offset / radius + vec2f(0.42, 0.42));
     let light = 0.30 * detail * (1.0 - smoothstep(0.0, 0.36, from_light));
     return vec4f(mix(disc.color * rim, vec3f(1.0), light) * alpha, alpha);

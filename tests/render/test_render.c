@@ -236,8 +236,8 @@ static void big_disc_covers_its_area(void **state)
                 int rise = pixel(&with, x, y)[2] - pixel(&plain, x, y)[2];
                 uint8_t rgb[3];
                 weir_color_map(WEIR_COLOR_SPEED, 0, rgb);
-                // The rim has at most 0.62 of the blue; half of that marks a covered pixel.
-                area += rise > 0.31 * (rgb[2] - pixel(&plain, x, y)[2]);
+                // The rim has at least 0.72 of the blue; half of that marks a covered pixel.
+                area += rise > 0.36 * (rgb[2] - pixel(&plain, x, y)[2]);
             }
         }
         CHECK_NEAR(area, pi * radius * radius, 0.04 * pi * radius * radius + 2);
