@@ -63,6 +63,11 @@ void weir_report_end(WeirReport *report, const char *label)
     }
 }
 
+bool weir_report_pending(const WeirReport *report)
+{
+    return report->pending > 0;
+}
+
 WeirStatus weir_report_check(const WeirReport *report, WeirMessage *message)
 {
     if (report->status != WEIR_OK) *message = report->message;

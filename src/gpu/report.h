@@ -12,5 +12,7 @@ void weir_report_destroy(WeirReport *report); // NULL is allowed
 // What is made between these two calls is made for `label`, a static text.
 void weir_report_begin(WeirReport *report);
 void weir_report_end(WeirReport *report, const char *label);
+// True while errors may still be under way.
+bool weir_report_pending(const WeirReport *report);
 // The first error, copied into `message`; WEIR_OK if none is known.
 WeirStatus weir_report_check(const WeirReport *report, WeirMessage *message);
