@@ -34,9 +34,9 @@ static void momentum_of_kernels(const WeirBackend *backend, const char *kernels)
         double scale = momentum_scale(sim);
         weir_test_step(sim, 1);
         after = weir_test_diagnose(sim, false);
-        // Half a unit in the last place per particle, and a few more for the sums over neighbours.
+        // A unit in the last place is 1.2e-7; over hundreds of particles roundings cancel (measured: 3e-9).
         for (int axis = 0; axis < 2; ++axis)
-            CHECK_NEAR(after.momentum[axis], before.momentum[axis], 3e-7 * scale);
+            CHECK_NEAR(after.momentum[axis], before.momentum[axis], 5e-8 * scale);
     }
     // They did collide: the left drop, the first half of the particles, came in with 1 m/s.
     float *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
@@ -84,12 +84,13 @@ static double energy_rise(WeirScene *scene, const WeirBackend *backend, int samp
     return rise / start;
 }
 
-// The article's numbers with fewer particles.
+// The article's numbers with fewer particles, and a third of its time step: what semi-implicit Euler adds and
+// takes within an oscillation goes with the step and must not hide what the equations do.
 static WeirScene *article_like(double width, double height)
 {
     WeirScene *scene = weir_test_scene(0.0225, 0.045, -1, 1);
     weir_test_gravity(scene, 0, -9.81);
-    weir_test_set(scene, "time_step", 0.0005);
+    weir_test_set(scene, "time_step", 0.00025);
     weir_test_box(scene, -1, -1, -1 + width, -1 + height);
     return scene;
 }
@@ -97,8 +98,8 @@ static WeirScene *article_like(double width, double height)
 static void energy_never_grows(const WeirBackend *backend)
 {
     WeirScene *dam = article_like(0.45, 0.675), *column = article_like(0.2025, 0.9);
-    CHECK_AT_MOST(energy_rise(dam, backend, 60, 10), 2e-3);
-    CHECK_AT_MOST(energy_rise(column, backend, 60, 10), 2e-3);
+    CHECK_AT_MOST(energy_rise(dam, backend, 60, 20), 5e-4);
+    CHECK_AT_MOST(energy_rise(column, backend, 60, 20), 5e-4);
     weir_scene_destroy(dam);
     weir_scene_destroy(column);
 }
@@ -108,7 +109,7 @@ static void tutorial_kernels_create_energy(const WeirBackend *backend)
 {
     WeirScene *dam = article_like(0.45, 0.675);
     weir_test_choose(dam, "kernels", "tutorial");
-    assert_true(energy_rise(dam, backend, 60, 10) > 0.1);
+    assert_true(energy_rise(dam, backend, 60, 20) > 0.3);
     weir_scene_destroy(dam);
 }
 
