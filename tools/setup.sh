@@ -15,7 +15,8 @@ check_packages="clang-19 clang-format-19 libclang-rt-19-dev libcmocka-dev python
 node_minimum=18
 
 stop() {
-    printf '\n%s\n' "$@" >&2
+    printf '\n' >&2
+    printf '%s\n' "$@" >&2
     exit 1
 }
 
@@ -71,8 +72,8 @@ install_packages() {
     if [[ $(id -u) -ne 0 ]]; then
         if ! command -v sudo >/dev/null || ! sudo -n true 2>/dev/null; then
             stop "Weir needs Debian packages that are not installed, and you may not install packages here." \
-                "Ask someone who may to run this, then try again:" "" \
-                "    sudo apt-get update && sudo apt-get install --no-install-recommends $missing" ""
+                "Ask someone who may to run this, then try again:" \
+                "    sudo apt-get update && sudo apt-get install --no-install-recommends $missing"
         fi
         as_root=(sudo)
     fi
