@@ -69,5 +69,8 @@ double weir_stable_time_step(const WeirParameters *parameters, double speed)
     // Rates add: sound and flow cross the support, viscosity relaxes the velocity inside it.
     double rate = (sound_speed + 3.0 * speed) / (courant * h) + 8.0 * kinematic_viscosity / (h * h);
     const WeirParameterInfo *info = weir_parameter_info((uint32_t)weir_parameter_find("time_step"));
-    return fmax(info->minimum, fmin(rate > 0.0 ? 1.0 / rate : info->maximum, info->maximum));
+    double step = rate > 0.0 ? 1.0 / rate : info->maximum;
+    // Two digits, rounded down: a number to read and to type.
+    double digit = pow(10.0, floor(log10(step)) - 1.0);
+    return fmax(info->minimum, fmin(floor(step / digit) * digit, info->maximum));
 }

@@ -22,6 +22,6 @@ double weir_kernel_density(double r, double h, uint32_t kernels);
 // Mass per particle that gives a resting square lattice of `particle_spacing` the rest density: rho0 / sum W.
 double weir_calibrated_mass(const WeirParameters *parameters);
 // Estimate of the largest stable time step in seconds: C h / (c + 3 v) with a Courant number C that falls
-// with the ratio of support radius to spacing, fitted to measured limits (docs/method.md, "Time step").
-// `speed` v is the largest that the fluid can reach, m/s.
+// with the ratio of support radius to spacing, fitted to measured limits (docs/method.md, "Time step");
+// rounded down to two digits. `speed` v is the largest that the fluid can reach, m/s.
 double weir_stable_time_step(const WeirParameters *parameters, double speed);
