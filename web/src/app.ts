@@ -1,0 +1,425 @@
+// The page: one scene, one engine that runs it, and the controls around them.
+import type { Engine, FaultKind } from './engine.ts';
+import { formatNumber } from './format.ts';
+import { onKeys } from './keys.ts';
+import { chooseRange, Legend } from './legend.ts';
+import { Notes } from './notes.ts';
+import { Panel, type PanelHost } from './panel.ts';
+import { Plot } from './plot.ts';
+import { Pointer, type ToolSettings } from './pointer.ts';
+import { fetchScene, parseScene, withParameters, type ParameterValue, type SceneDocument, type SceneEntry } from './scene_document.ts';
+import { SceneStore } from './scene_store.ts';
+import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
+import { StatusLine } from './status.ts';
+import { Camera, watchSize } from './view.ts';
+import { ColorBy, type ParameterInfo, type Weir } from './weir.ts';
+
+export type AppOptions = {
+  backend: Backend;
+  sceneName: string;
+  document: SceneDocument;
+  particles: number; // 0: as the scene has it
+};
+
+const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
+const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
+const panelWidth = 304;
+
+const element = (id: string): HTMLElement => document.getElementById(id) as HTMLElement;
+
+export class App implements PanelHost {
+  readonly weir: Weir;
+  readonly scenes: SceneEntry[];
+  readonly parameters: ParameterInfo[];
+  readonly camera = new Camera();
+  readonly notes = new Notes(element('notes'));
+  readonly plot = new Plot(element('plot') as HTMLCanvasElement);
+  readonly status = new StatusLine(element('footer'));
+  readonly store: SceneStore;
+  readonly pointer: Pointer;
+  sceneName: string;
+  backend: Backend;
+  engine: Engine | null = null;
+  paused = false;
+  firstFrameMs = 0; // after navigation started
+  readonly #module: WebAssembly.Module;
+  readonly #legend = new Legend(element('footer'));
+  readonly #stage = element('stage');
+  #panel: Panel | null = null;
+  #panelShown = true;
+  #canvas: HTMLCanvasElement | null = null;
+  #engineToken = {};
+  #recovering = false;
+  #starting: Promise<void> = Promise.resolve();
+  #restartTimer = 0;
+  #lastGood: SceneDocument; // that an engine runs
+  #lastLoss = -Infinity;
+  #lastFrame = 0;
+  #interval = 1000 / 60; // ms between animation frames, averaged
+  #plotted: unknown = null;
+
+  constructor(weir: Weir, module: WebAssembly.Module, scenes: SceneEntry[], options: AppOptions) {
+    this.weir = weir;
+    this.#module = module;
+    this.scenes = scenes;
+    this.parameters = weir.parameters;
+    this.backend = options.backend;
+    this.sceneName = options.sceneName;
+    this.store = new SceneStore(weir, options.document);
+    if (options.particles > 0) this.store.replace(this.store.withParticles(options.particles));
+    this.#lastGood = this.store.document;
+    this.pointer = new Pointer(this.#stage, this.camera);
+    this.pointer.onRadius = () => this.#panel?.refresh();
+  }
+
+  async start(): Promise<void> {
+    watchSize(this.#stage, (width, height, ratio) => {
+      this.camera.width = width;
+      this.camera.height = height;
+      this.camera.pixelRatio = ratio;
+      this.#fit();
+    });
+    if (innerWidth < 760) this.plot.show(false);
+    this.#showScene();
+    await this.#chooseEngine();
+    requestAnimationFrame(this.#frame);
+    this.#panel = new Panel(element('panel'), this, innerWidth >= 760);
+    this.#fit();
+    this.#listen();
+  }
+
+  // ---- Engines ----
+
+  #setup(): EngineSetup {
+    const token = (this.#engineToken = {});
+    return {
+      weir: this.weir,
+      module: this.#module,
+      newCanvas: () => this.#newCanvas(),
+      onFault: (kind, message) => {
+        if (token === this.#engineToken) void this.#fault(kind, message);
+      },
+    };
+  }
+
+  #newCanvas(): HTMLCanvasElement {
+    const canvas = document.createElement('canvas');
+    this.#stage.replaceChildren(canvas);
+    return (this.#canvas = canvas);
+  }
+
+  async #chooseEngine(): Promise<void> {
+    const from = this.engine?.snapshot() ?? null;
+    this.engine?.destroy();
+    this.engine = null;
+    this.notes.clear('engine');
+    const { engine, reason } = await startEngine(this.#setup(), this.backend);
+    this.engine = engine;
+    if (reason) this.#explain(reason);
+    try {
+      await engine.start(this.store.document, from);
+      this.#started();
+    } catch (error) {
+      await this.#fault('engine', (error as Error).message);
+    }
+  }
+
+  #explain(reason: string): void {
+    const where = this.engine?.kind === 'main' ? "on the page's own thread" : 'on the CPU';
+    this.notes.show('engine', 'info', `${reason.replace(/[.\s]*$/, '.')} The C solver runs the fluid ${where}.`);
+  }
+
+  async #fault(kind: FaultKind, message: string): Promise<void> {
+    if (kind === 'unstable') {
+      const actions = [{ label: 'Restart', run: () => this.restart() }];
+      if (this.#stepIsTooLarge()) {
+        actions.unshift({ label: 'Use the stable step', run: () => (this.useStableStep(), this.restart()) });
+      }
+      this.notes.show('fault', 'error', message, actions);
+      return;
+    }
+    if (this.#recovering) return;
+    this.#recovering = true;
+    try {
+      await this.#recover(message);
+    } finally {
+      this.#recovering = false;
+    }
+  }
+
+  // A lost device is replaced once; then the C solver takes over, in a worker if that works.
+  async #recover(message: string): Promise<void> {
+    const old = this.engine;
+    const from = old?.snapshot() ?? null;
+    const again = old?.kind === 'gpu' && performance.now() - this.#lastLoss > secondLossMs;
+    this.engine = null;
+    this.#engineToken = {};
+    old?.destroy();
+    if (old?.kind === 'gpu') this.#lastLoss = performance.now();
+    const attempts: (() => Promise<Engine> | Engine)[] = [];
+    if (again) attempts.push(() => startGpu(this.#setup(), this.backend === 'gpu'));
+    if (old?.kind !== 'worker' && old?.kind !== 'main') attempts.push(() => startCpu(this.#setup()));
+    if (old?.kind !== 'main') attempts.push(() => startMain(this.#setup()));
+    for (const attempt of attempts) {
+      let engine: Engine | null = null;
+      try {
+        engine = await attempt();
+        await engine.start(this.store.document, from);
+        this.engine = engine;
+        this.#started();
+        if (engine.kind === 'gpu') this.notes.show('engine', 'info', `${message}. A new device goes on from there.`);
+        else this.#explain(message);
+        return;
+      } catch {
+        engine?.destroy();
+      }
+    }
+    this.notes.show('engine', 'error', `${message}. Nothing else could take over.`, [
+      { label: 'Reload', run: () => location.reload() },
+    ]);
+  }
+
+  // ---- Scenes ----
+
+  // Starts a document; the last good one goes on if it is refused.
+  #run(next: SceneDocument, name = this.sceneName): Promise<void> {
+    this.#starting = this.#starting.then(async () => {
+      try {
+        this.store.replace(next);
+        await this.engine?.start(next, null);
+        this.sceneName = name;
+        this.#started();
+      } catch (error) {
+        this.notes.toast('error', (error as Error).message);
+        this.store.replace(this.#lastGood);
+        this.#panel?.refresh();
+      }
+    });
+    return this.#starting;
+  }
+
+  async loadScene(nameOrUrl: string): Promise<void> {
+    try {
+      const document = (await fetchScene(nameOrUrl)) as SceneDocument;
+      this.setPaused(false);
+      await this.#run(document, nameOrUrl);
+    } catch (error) {
+      this.notes.toast('error', (error as Error).message);
+      this.#panel?.refresh();
+    }
+  }
+
+  async loadText(text: string, name: string): Promise<void> {
+    try {
+      await this.#run(parseScene(text, name) as SceneDocument, name);
+    } catch (error) {
+      this.notes.toast('error', (error as Error).message);
+    }
+  }
+
+  #started(): void {
+    this.#lastGood = this.store.document;
+    this.notes.clear('fault');
+    this.plot.clear();
+    this.#showScene();
+    if (this.engine) this.status.restart(performance.now(), this.engine);
+    this.#panel?.refresh();
+  }
+
+  #showScene(): void {
+    const { scene } = this.store;
+    const { view } = this.camera;
+    this.camera.domain = scene.domain;
+    view.particleRadius = 0.5 * (scene.parameter('particle_spacing')[0] ?? 0.01);
+    chooseRange(view, scene, this.store.document);
+    this.#legend.update(this.weir, view);
+    element('title').textContent = scene.title;
+    document.title = scene.title ? `${scene.title} · Weir` : 'Weir';
+    this.pointer.setRadius(this.pointer.settings.radius);
+    this.#fit();
+    this.#warn();
+  }
+
+  #stepIsTooLarge(): boolean {
+    return (this.store.scene.parameter('time_step')[0] ?? 0) > this.store.derived.stableTimeStep;
+  }
+
+  #warn(): void {
+    const { warning } = this.store.derived;
+    if (!warning) return this.notes.clear('warning');
+    const actions = this.#stepIsTooLarge() ? [{ label: 'Use the stable step', run: () => this.useStableStep() }] : [];
+    this.notes.show('warning', 'warning', warning, actions);
+  }
+
+  // ---- What the panel may do ----
+
+  get tool(): ToolSettings {
+    return this.pointer.settings;
+  }
+  get colorBy(): ColorBy {
+    return this.camera.view.colorBy;
+  }
+  parameter(name: string): number[] {
+    return this.store.scene.parameter(name);
+  }
+  particles(): number {
+    return this.store.derived.particles;
+  }
+  mostParticles(): number {
+    return this.engine?.mostParticles ?? 50_000;
+  }
+
+  setParameter(name: string, value: ParameterValue): boolean {
+    const info = this.parameters.find((parameter) => parameter.name === name);
+    try {
+      if (!info) throw new Error(`${name}: no such parameter`);
+      this.store.set(name, value);
+      if (info.live) this.engine?.setParameter(name, this.store.numbers(info), this.store.document);
+      else this.#restartSoon();
+      if (this.#restartTimer === 0) this.#lastGood = this.store.document;
+    } catch (error) {
+      this.notes.toast('error', (error as Error).message);
+      return false;
+    }
+    this.#warn();
+    this.#panel?.refresh();
+    return true;
+  }
+
+  setParticles(count: number): boolean {
+    try {
+      this.store.replace(this.store.withParticles(count));
+      this.#restartSoon();
+    } catch (error) {
+      this.notes.toast('error', (error as Error).message);
+      return false;
+    }
+    this.#panel?.refresh();
+    return true;
+  }
+
+  // Starts the document that holds when the controls have come to rest.
+  #restartSoon(): void {
+    clearTimeout(this.#restartTimer);
+    this.#restartTimer = window.setTimeout(() => {
+      this.#restartTimer = 0;
+      void this.#run(this.store.document);
+    }, restartDelayMs);
+  }
+
+  setBackend(backend: Backend): void {
+    this.backend = backend;
+    this.#starting = this.#starting.then(() => this.#chooseEngine());
+  }
+
+  setColorBy(colorBy: ColorBy): void {
+    const { view } = this.camera;
+    view.colorBy = colorBy;
+    chooseRange(view, this.store.scene, this.store.document);
+    this.#legend.update(this.weir, view);
+    this.#panel?.refresh();
+  }
+
+  setRadius(radius: number): void {
+    this.pointer.setRadius(radius);
+  }
+
+  restart(): void {
+    this.notes.clear('fault');
+    this.plot.clear();
+    this.engine?.reset();
+  }
+
+  useStableStep(): void {
+    this.setParameter('time_step', Number((0.995 * this.store.derived.stableTimeStep).toPrecision(3)));
+  }
+
+  setPaused(paused: boolean): void {
+    this.paused = paused;
+    this.#panel?.showPaused(paused);
+  }
+  togglePause(): void {
+    this.setPaused(!this.paused);
+  }
+  stepOnce(): void {
+    this.setPaused(true);
+    this.engine?.step(1);
+  }
+  togglePanel(): void {
+    this.#panelShown = !this.#panelShown;
+    element('panel').classList.toggle('hidden', !this.#panelShown);
+    this.#fit();
+  }
+
+  // ---- Window ----
+
+  #fit(): void {
+    const narrow = innerWidth < 760;
+    const right = this.#panelShown && !narrow ? panelWidth + 20 : 20;
+    this.camera.fit({ left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 });
+  }
+
+  #listen(): void {
+    onKeys({
+      ' ': () => this.togglePause(),
+      '.': () => this.stepOnce(),
+      r: () => this.restart(),
+      h: () => this.togglePanel(),
+      p: () => this.plot.show(!this.plot.visible),
+      digit: (digit) => {
+        const entry = this.scenes[digit - 1];
+        if (entry) void this.loadScene(entry.name);
+      },
+    });
+    const stage = document.body;
+    stage.addEventListener('dragover', (event) => {
+      event.preventDefault();
+      this.#stage.classList.add('dropping');
+    });
+    stage.addEventListener('dragleave', (event) => {
+      if (event.relatedTarget === null) this.#stage.classList.remove('dropping');
+    });
+    stage.addEventListener('drop', (event) => {
+      event.preventDefault();
+      this.#stage.classList.remove('dropping');
+      const file = event.dataTransfer?.files[0];
+      if (file) void file.text().then((text) => this.loadText(text, file.name));
+    });
+  }
+
+  readonly #frame = (now: number): void => {
+    requestAnimationFrame(this.#frame);
+    const elapsed = this.#lastFrame > 0 ? now - this.#lastFrame : 0;
+    this.#lastFrame = now;
+    if (elapsed > 4) this.#interval += 0.05 * (Math.min(elapsed, 20) - this.#interval);
+    const engine = this.engine;
+    if (!engine) return;
+    this.#resizeCanvas();
+    this.pointer.update(elapsed / 1000);
+    engine.frame(this.paused ? 0 : elapsed / 1000, this.#interval, this.pointer.tool, this.camera.view);
+    const { diagnostics } = engine.stats;
+    if (diagnostics && diagnostics !== this.#plotted && !this.paused) this.plot.add(now, diagnostics);
+    this.#plotted = diagnostics;
+    this.status.update(now, engine, this.paused);
+    if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();
+  };
+
+  // Here and not when the size changes: setting it clears the canvas, which must be drawn in the same frame.
+  #resizeCanvas(): void {
+    const canvas = this.#canvas;
+    if (!canvas) return;
+    if (canvas.width !== this.camera.width) canvas.width = this.camera.width;
+    if (canvas.height !== this.camera.height) canvas.height = this.camera.height;
+  }
+
+  // In plain words, for the console and tests.
+  describe(): string {
+    const { stats } = this.engine ?? { stats: null };
+    if (!stats) return 'starting';
+    return `${stats.particles} particles, ${formatNumber(this.status.realTimeFactor)} of real time`;
+  }
+
+  set(changes: Record<string, ParameterValue>): Promise<void> {
+    return this.#run(withParameters(this.store.document, changes));
+  }
+}

@@ -1,0 +1,110 @@
+// Runs a scene with the C solver, inside a worker or on the page's own thread, frame by frame.
+import { diagnoseInterval, type Snapshot, type Tool } from './engine.ts';
+import { Pace } from './pace.ts';
+import { floatsPerParticle } from './points.ts';
+import type { SceneDocument } from './scene_document.ts';
+import { ColorBy, Field, type Diagnostics, type Sim, type Weir } from './weir.ts';
+
+export type CpuFrame = {
+  steps: number; // taken
+  stepCount: number;
+  time: number;
+  stepMs: number;
+  diagnostics: Diagnostics | null; // a new one now and then
+};
+
+export class CpuRunner {
+  readonly #weir: Weir;
+  readonly #pace = new Pace();
+  #sim: Sim | null = null;
+  #timeOffset = 0; // a run that goes on from a snapshot keeps its clock
+  #stepOffset = 0;
+  #diagnosed = 0;
+  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null };
+
+  constructor(weir: Weir) {
+    this.#weir = weir;
+  }
+
+  get device(): string {
+    return this.#sim?.device ?? '';
+  }
+  get particles(): number {
+    return this.#sim?.particleCount ?? 0;
+  }
+
+  start(document: SceneDocument, from: Snapshot | null): void {
+    const scene = this.#weir.loadScene(document);
+    let sim: Sim | null = null;
+    try {
+      sim = this.#weir.createSim(scene, { maxSteps: this.#pace.maxSteps });
+      if (from && from.positions.length === 2 * sim.particleCount) {
+        sim.setState(from.positions, from.velocities);
+        this.#timeOffset = from.time;
+        this.#stepOffset = from.steps;
+      } else {
+        this.#timeOffset = this.#stepOffset = 0;
+      }
+    } catch (error) {
+      sim?.destroy();
+      throw error;
+    } finally {
+      scene.destroy();
+    }
+    this.#sim?.destroy();
+    this.#sim = sim;
+    this.#pace.reset();
+    this.#diagnosed = 0;
+  }
+
+  // Advances and fills `values` as PointsFrame says. Throws WeirError if the fluid blows up.
+  frame(wallSeconds: number, budgetMs: number, tool: Tool, colorBy: ColorBy, values: Float32Array): CpuFrame {
+    const frame = this.#frame;
+    const sim = this.#sim;
+    frame.diagnostics = null;
+    if (!sim) return frame;
+    sim.setTool(tool.kind, tool.x, tool.y, tool.vx, tool.vy, tool.radius, tool.strength);
+    sim.setMaxSteps(this.#pace.maxSteps);
+    const begin = performance.now();
+    frame.steps = sim.advance(wallSeconds);
+    const end = performance.now();
+    this.#pace.measured(frame.steps, end - begin, budgetMs);
+    this.#fill(sim, colorBy, values);
+    frame.stepCount = sim.stepCount + this.#stepOffset;
+    frame.time = sim.time + this.#timeOffset;
+    frame.stepMs = this.#pace.stepMs;
+    if (end - this.#diagnosed > diagnoseInterval(sim.particleCount)) {
+      frame.diagnostics = sim.diagnose(false);
+      this.#diagnosed = end;
+    }
+    return frame;
+  }
+
+  #fill(sim: Sim, colorBy: ColorBy, values: Float32Array): void {
+    const count = sim.particleCount;
+    if (values.length !== floatsPerParticle * count) return;
+    const position = sim.read(Field.position);
+    if (position) values.set(position, 0);
+    const velocity = sim.read(Field.velocity);
+    if (velocity) values.set(velocity, 2 * count);
+    if (colorBy === ColorBy.speed) return;
+    const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
+    if (scalar) values.set(scalar, 4 * count);
+  }
+
+  step(count: number): void {
+    this.#sim?.step(count);
+  }
+  reset(): void {
+    this.#sim?.reset();
+    this.#timeOffset = this.#stepOffset = 0;
+  }
+  setParameter(name: string, values: number[]): void {
+    this.#sim?.setParameter(name, values);
+    this.#pace.reset(); // `search` changes what a step costs by orders of magnitude
+  }
+  destroy(): void {
+    this.#sim?.destroy();
+    this.#sim = null;
+  }
+}

@@ -1,0 +1,63 @@
+// The contract between the page and whatever moves and draws the fluid: WebGPU here, C in a worker, C on this thread.
+import type { SceneDocument } from './scene_document.ts';
+import { ToolKind, type Diagnostics, type PassTime, type View } from './weir.ts';
+
+// The pointer's tool, as weir_sim_set_tool() takes it.
+export type Tool = {
+  kind: ToolKind;
+  x: number; // m
+  y: number;
+  vx: number; // m/s
+  vy: number;
+  radius: number; // m
+  strength: number;
+};
+
+// Positions and velocities to go on from: x0, y0, x1, y1, ...
+export type Snapshot = { positions: Float32Array; velocities: Float32Array; time: number; steps: number };
+
+// What an engine tells while it runs; one object, changed in place.
+export type EngineStats = {
+  particles: number;
+  steps: number; // since the start
+  time: number; // simulated seconds since the start
+  frames: number; // drawn, each with a newer state than the last one
+  frameSteps: number; // of the last frame
+  stepMs: number; // milliseconds per step, averaged
+  passes: PassTime[]; // empty where the device gives no times
+  diagnostics: Diagnostics | null;
+  memory: number; // bytes; 0: not known
+};
+
+export type FaultKind =
+  | 'input' // the scene is refused
+  | 'unstable' // the fluid blew up; the engine is fine
+  | 'engine'; // it cannot go on: device lost, worker gone, out of memory
+
+export type FaultHandler = (kind: FaultKind, message: string) => void;
+
+export interface Engine {
+  readonly kind: 'gpu' | 'worker' | 'main';
+  readonly device: string;
+  readonly stats: EngineStats;
+  readonly mostParticles: number; // that it can hold, for the panel
+  // Starts a scene; the run before goes on if this throws.
+  start(scene: SceneDocument, from: Snapshot | null): Promise<void>;
+  // Once per animation frame: takes the steps due after `wallSeconds` and draws.
+  frame(wallSeconds: number, intervalMs: number, tool: Tool, view: View): void;
+  step(count: number): void;
+  reset(): void;
+  // `scene`: the whole document with that change, for engines that may have to start it again.
+  setParameter(name: string, values: number[], scene: SceneDocument): void;
+  snapshot(): Snapshot | null; // the last one known
+  destroy(): void;
+}
+
+export function newStats(): EngineStats {
+  return {
+    particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, memory: 0,
+  };
+}
+
+// Diagnostics copy the whole state to the host: rarer for more particles.
+export const diagnoseInterval = (particles: number): number => Math.max(100, particles / 1000);

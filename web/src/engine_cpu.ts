@@ -1,0 +1,60 @@
+// What the two engines with the C solver share: the canvas, its renderer, and the frame to draw.
+import { newStats, type EngineStats, type Snapshot } from './engine.ts';
+import { createPointsRenderer, floatsPerParticle, type PointsFrame, type PointsRenderer } from './points.ts';
+import type { SceneDocument } from './scene_document.ts';
+import { ColorBy, type View, type Weir } from './weir.ts';
+
+export class CpuPicture {
+  readonly stats: EngineStats = newStats();
+  readonly renderer: PointsRenderer;
+  readonly #weir: Weir;
+  readonly #frame: PointsFrame = {
+    values: new Float32Array(0), count: 0, changed: false, domainMin: [0, 0], domainMax: [0, 0],
+    particleSpacing: 0.01, restDensity: 1000,
+  };
+
+  constructor(weir: Weir, canvas: HTMLCanvasElement) {
+    this.#weir = weir;
+    const maps = new Uint8Array(4 * 768);
+    for (const by of [ColorBy.speed, ColorBy.density, ColorBy.densityError, ColorBy.pressure]) {
+      maps.set(weir.colorMap(by), 768 * by);
+    }
+    this.renderer = createPointsRenderer(canvas, maps);
+  }
+
+  // Takes over what drawing needs to know of the scene.
+  setScene(document: SceneDocument, particles: number): void {
+    const scene = this.#weir.loadScene(document);
+    const { min, max } = scene.domain;
+    this.#frame.domainMin = min;
+    this.#frame.domainMax = max;
+    this.#frame.particleSpacing = scene.parameter('particle_spacing')[0] ?? 0.01;
+    this.#frame.restDensity = scene.parameter('rest_density')[0] ?? 1000;
+    scene.destroy();
+    this.#frame.count = 0;
+    this.stats.particles = particles;
+    this.stats.diagnostics = null;
+    this.stats.frameSteps = 0;
+  }
+
+  // A new state, laid out as PointsFrame says.
+  setValues(values: Float32Array): void {
+    this.#frame.values = values;
+    this.#frame.count = values.length / floatsPerParticle;
+    this.#frame.changed = true;
+    this.stats.frames++;
+  }
+
+  draw(view: View): void {
+    if (this.#frame.count === 0) return;
+    this.renderer.draw(this.#frame, view);
+    this.#frame.changed = false;
+  }
+
+  snapshot(): Snapshot | null {
+    const { values, count } = this.#frame;
+    if (count === 0) return null;
+    const { time, steps } = this.stats;
+    return { positions: values.slice(0, 2 * count), velocities: values.slice(2 * count, 4 * count), time, steps };
+  }
+}

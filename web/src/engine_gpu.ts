@@ -1,0 +1,260 @@
+// WebGPU: the fluid is moved and drawn on the device; this thread only queues work. At most two frames are under way,
+// gated on onSubmittedWorkDone(): animation frames go on at full rate even when a device is lost or far behind.
+import {
+  diagnoseInterval, newStats, type Engine, type EngineStats, type FaultHandler, type Snapshot, type Tool,
+} from './engine.ts';
+import { Pace } from './pace.ts';
+import type { SceneDocument } from './scene_document.ts';
+import { Field, Status, WeirError, type Gpu, type Renderer, type Sim, type View, type Weir } from './weir.ts';
+
+const framesInFlight = 2;
+const snapshotMs = 1000;
+const passTimesMs = 500;
+const bytesPerParticle = 16; // of the largest array, array<vec4f>
+
+export class GpuEngine implements Engine {
+  readonly kind = 'gpu';
+  readonly stats: EngineStats = newStats();
+  readonly gpu: Gpu; // public for tests, which destroy its device
+  readonly #weir: Weir;
+  readonly #device: GPUDevice;
+  readonly #renderer: Renderer;
+  readonly #onFault: FaultHandler;
+  readonly #pace = new Pace();
+  #sim: Sim | null = null;
+  #inFlight = 0;
+  #owedWall = 0; // of animation frames that were skipped
+  #lastDone = 0;
+  #budgetMs = 14;
+  // Of the frames under way, oldest first.
+  readonly #sent = new Float64Array(framesInFlight);
+  readonly #sentSteps = new Int32Array(framesInFlight);
+  #diagnosed = 0;
+  #diagnosing = false;
+  #snapshotAt = 0;
+  #snapshotPhase: 'idle' | 'positions' | 'velocities' = 'idle';
+  #positions = new Float32Array(0);
+  #velocities = new Float32Array(0);
+  #snapshot: Snapshot | null = null;
+  #timed = 0;
+  #timeOffset = 0;
+  #stepOffset = 0;
+  #stopped = false;
+  #destroyed = false;
+
+  // `gpu` must be ready.
+  constructor(weir: Weir, gpu: Gpu, canvas: HTMLCanvasElement, onFault: FaultHandler) {
+    const device = gpu.nativeDevice;
+    if (!device) throw new Error('the WebGPU device is gone');
+    this.#weir = weir;
+    this.gpu = gpu;
+    this.#device = device;
+    this.#onFault = onFault;
+    this.#renderer = weir.createRenderer(gpu, canvas);
+    void device.lost.then((info) => this.#fail(`The WebGPU device was lost: ${info.message || info.reason}`));
+  }
+
+  get device(): string {
+    return this.gpu.device;
+  }
+  get mostParticles(): number {
+    const { maxStorageBufferBindingSize, maxBufferSize } = this.#device.limits;
+    return Math.min(Math.floor(Math.min(maxStorageBufferBindingSize, maxBufferSize) / bytesPerParticle), 4_000_000);
+  }
+
+  async start(scene: SceneDocument, from: Snapshot | null): Promise<void> {
+    const next = await this.#create(scene);
+    if (this.#destroyed) {
+      next.destroy();
+      throw new Error('the engine was closed');
+    }
+    this.#timeOffset = this.#stepOffset = 0;
+    if (from && from.positions.length === 2 * next.particleCount) {
+      next.setState(from.positions, from.velocities);
+      this.#timeOffset = from.time;
+      this.#stepOffset = from.steps;
+    }
+    this.#sim?.destroy();
+    this.#sim = next;
+    this.#pace.reset();
+    this.#stopped = false;
+    this.#snapshot = null;
+    this.#snapshotPhase = 'idle';
+    this.#snapshotAt = performance.now() - 0.8 * snapshotMs; // soon, but not in the first frames
+    this.#diagnosing = false;
+    this.stats.particles = next.particleCount;
+    this.stats.diagnostics = null;
+    this.stats.passes = [];
+  }
+
+  // The run before stays until the new one is there; where memory is too short for both, it has to go first.
+  async #create(document: SceneDocument): Promise<Sim> {
+    const scene = this.#weir.loadScene(document);
+    let sim: Sim | null = null;
+    try {
+      sim = this.#weir.createSim(scene, { gpu: this.gpu, maxSteps: this.#pace.maxSteps });
+      while (sim.poll() === Status.pending) await new Promise((resolve) => setTimeout(resolve, 5));
+      if (sim.status !== Status.ok) throw new WeirError(sim.status, sim.error);
+      return sim;
+    } catch (error) {
+      sim?.destroy();
+      throw error;
+    } finally {
+      scene.destroy();
+    }
+  }
+
+  frame(wallSeconds: number, intervalMs: number, tool: Tool, view: View): void {
+    const sim = this.#sim;
+    if (!sim || this.#destroyed) return;
+    this.#budgetMs = 0.85 * intervalMs;
+    this.#owedWall += wallSeconds;
+    if (!this.#poll(sim) || this.#inFlight >= framesInFlight) return;
+    try {
+      sim.setTool(tool.kind, tool.x, tool.y, tool.vx, tool.vy, tool.radius, tool.strength);
+      sim.setMaxSteps(this.#pace.maxSteps);
+      const steps = this.#stopped ? 0 : sim.advance(this.#owedWall);
+      this.#owedWall = 0;
+      this.#submit(sim, view, steps);
+    } catch (error) {
+      this.#caught(error as Error);
+    }
+    this.#measure(sim);
+  }
+
+  #submit(sim: Sim, view: View, steps: number): void {
+    const status = this.#renderer.draw(sim, view);
+    if (status !== Status.ok && status !== Status.pending) this.#fail(this.gpu.error || 'drawing failed');
+    this.#sent[this.#inFlight] = performance.now();
+    this.#sentSteps[this.#inFlight] = steps;
+    this.#inFlight++;
+    this.stats.frameSteps = steps;
+    this.#device.queue.onSubmittedWorkDone().then(this.#done, this.#notDone);
+  }
+
+  readonly #done = (): void => {
+    const now = performance.now();
+    const begin = Math.max(this.#sent[0] as number, this.#lastDone);
+    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#budgetMs);
+    this.#lastDone = now;
+    this.#sent.copyWithin(0, 1);
+    this.#sentSteps.copyWithin(0, 1);
+    this.#inFlight--;
+    this.stats.frames++;
+    this.stats.stepMs = this.#pace.stepMs;
+    if (!this.#sim || this.#destroyed) return;
+    this.stats.steps = this.#sim.stepCount + this.#stepOffset;
+    this.stats.time = this.#sim.time + this.#timeOffset;
+  };
+
+  readonly #notDone = (error: Error): void => {
+    this.#inFlight = Math.max(this.#inFlight - 1, 0);
+    this.#fail(`The WebGPU queue failed: ${error.message}`);
+  };
+
+  // False once it cannot go on.
+  #poll(sim: Sim): boolean {
+    const gpu = this.gpu.poll();
+    if (gpu !== Status.ok && gpu !== Status.pending) {
+      this.#fail(this.gpu.error);
+      return false;
+    }
+    if (this.#stopped) return true;
+    const status = sim.poll();
+    if (status === Status.unstable || status === Status.lost) {
+      this.#stopped = true;
+      this.#onFault('unstable', sim.error);
+    } else if (status !== Status.ok && status !== Status.pending) {
+      this.#fail(sim.error);
+      return false;
+    }
+    return true;
+  }
+
+  #measure(sim: Sim): void {
+    const now = performance.now();
+    if (this.#stopped || this.#destroyed) return;
+    if (this.#snapshotPhase === 'idle') this.#diagnose(sim, now);
+    if (!this.#diagnosing) this.#takeSnapshot(sim, now);
+    if (now - this.#timed > passTimesMs) {
+      this.stats.passes = sim.passTimes();
+      this.stats.memory = this.gpu.memory;
+      this.#timed = now;
+    }
+  }
+
+  #diagnose(sim: Sim, now: number): void {
+    if (!this.#diagnosing && now - this.#diagnosed < diagnoseInterval(sim.particleCount)) return;
+    const diagnostics = sim.diagnose(false);
+    this.#diagnosing = diagnostics === null;
+    if (diagnostics) {
+      this.stats.diagnostics = diagnostics;
+      this.#diagnosed = now;
+    }
+  }
+
+  // Positions, then velocities of a moment later: near enough to go on from after a loss.
+  #takeSnapshot(sim: Sim, now: number): void {
+    if (this.#snapshotPhase === 'idle') {
+      if (now - this.#snapshotAt < Math.max(snapshotMs, 5 * diagnoseInterval(sim.particleCount))) return;
+      this.#snapshotPhase = 'positions';
+    }
+    if (this.#snapshotPhase === 'positions') {
+      const positions = sim.read(Field.position);
+      if (!positions) return;
+      if (this.#positions.length !== positions.length) this.#positions = new Float32Array(positions.length);
+      this.#positions.set(positions);
+      this.#snapshotPhase = 'velocities';
+    }
+    const velocities = sim.read(Field.velocity);
+    if (!velocities) return;
+    if (this.#velocities.length !== velocities.length) this.#velocities = new Float32Array(velocities.length);
+    this.#velocities.set(velocities);
+    const { time, steps } = this.stats;
+    this.#snapshot = { positions: this.#positions, velocities: this.#velocities, time, steps };
+    this.#snapshotPhase = 'idle';
+    this.#snapshotAt = now;
+  }
+
+  #caught(error: Error): void {
+    if (error instanceof WeirError && (error.status === Status.unstable || error.status === Status.lost)) {
+      this.#stopped = true;
+      this.#onFault('unstable', error.message);
+    } else {
+      this.#fail(error.message);
+    }
+  }
+
+  #fail(message: string): void {
+    if (this.#destroyed) return;
+    this.#destroyed = true; // no second report, no more work
+    this.#onFault('engine', message);
+  }
+
+  step(count: number): void {
+    try {
+      this.#sim?.step(count);
+    } catch (error) {
+      this.#caught(error as Error);
+    }
+  }
+  reset(): void {
+    this.#sim?.reset();
+    this.#timeOffset = this.#stepOffset = 0;
+    this.#stopped = false;
+  }
+  setParameter(name: string, values: number[]): void {
+    this.#sim?.setParameter(name, values);
+    this.#pace.reset();
+  }
+  snapshot(): Snapshot | null {
+    return this.#snapshot;
+  }
+  destroy(): void {
+    this.#destroyed = true;
+    this.#sim?.destroy();
+    this.#sim = null;
+    this.#renderer.destroy();
+    this.gpu.destroy();
+  }
+}

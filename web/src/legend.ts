@@ -1,0 +1,70 @@
+// The colour map with its quantity, unit and range; and the range that suits a scene.
+import { formatNumber, niceCeil } from './format.ts';
+import type { SceneDocument } from './scene_document.ts';
+import { ColorBy, type Scene, type View, type Weir } from './weir.ts';
+
+export const colorNames: Record<string, ColorBy> = {
+  speed: ColorBy.speed,
+  density: ColorBy.density,
+  'density error': ColorBy.densityError,
+  pressure: ColorBy.pressure,
+};
+
+const captions: Record<ColorBy, string> = {
+  [ColorBy.speed]: 'Speed, m/s',
+  [ColorBy.density]: 'Density, kg/m³',
+  [ColorBy.densityError]: 'Density error, %',
+  [ColorBy.pressure]: 'Pressure, kPa',
+};
+
+// Sets colorMin and colorMax from what the scene can be expected to do.
+export function chooseRange(view: View, scene: Scene, document: SceneDocument): void {
+  const { min, max } = scene.domain;
+  const height = Math.max((max[1] ?? 1) - (min[1] ?? 0), 1e-9);
+  const gravity = Math.hypot(...scene.parameter('gravity'));
+  const restDensity = scene.parameter('rest_density')[0] ?? 1000;
+  const stiffness = scene.parameter('gas_constant')[0] ?? 2000;
+  const thrown = Math.max(0, ...(document.fluid ?? []).map((piece) => Math.hypot(...(piece.velocity ?? [0]))));
+  const fall = Math.sqrt(2 * gravity * height);
+  view.colorMin = 0;
+  if (view.colorBy === ColorBy.speed) view.colorMax = niceCeil(Math.max(0.55 * fall, thrown, 0.1));
+  if (view.colorBy === ColorBy.density) {
+    view.colorMin = 0.9 * restDensity;
+    view.colorMax = 1.1 * restDensity;
+  }
+  if (view.colorBy === ColorBy.densityError) {
+    view.colorMin = -0.1;
+    view.colorMax = 0.1;
+  }
+  if (view.colorBy === ColorBy.pressure) {
+    view.colorMax = niceCeil(restDensity * Math.max(gravity * height, 0.5 * thrown * thrown, 0.002 * stiffness));
+  }
+}
+
+export class Legend {
+  readonly #name: HTMLElement;
+  readonly #ticks: HTMLElement[];
+  readonly #map: HTMLCanvasElement;
+
+  constructor(root: HTMLElement) {
+    this.#name = root.querySelector('#legend-name') as HTMLElement;
+    this.#map = root.querySelector('canvas') as HTMLCanvasElement;
+    this.#ticks = [...root.querySelectorAll<HTMLElement>('#legend-ticks span')];
+  }
+
+  update(weir: Weir, view: View): void {
+    this.#name.textContent = captions[view.colorBy];
+    const scale = view.colorBy === ColorBy.densityError ? 100 : view.colorBy === ColorBy.pressure ? 1e-3 : 1;
+    const values = [view.colorMin, (view.colorMin + view.colorMax) / 2, view.colorMax];
+    this.#ticks.forEach((tick, k) => (tick.textContent = formatNumber((values[k] ?? 0) * scale)));
+    const colors = weir.colorMap(view.colorBy);
+    const context = this.#map.getContext('2d');
+    const image = context?.createImageData(256, 1);
+    if (!context || !image) return;
+    for (let n = 0; n < 256; n++) {
+      for (let k = 0; k < 3; k++) image.data[4 * n + k] = colors[3 * n + k] ?? 0;
+      image.data[4 * n + 3] = 255;
+    }
+    context.putImageData(image, 0, 0);
+  }
+}

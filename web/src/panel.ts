@@ -1,0 +1,184 @@
+// The panel, made from the engine's own parameter list. It shows what the scene holds; a change goes to the app, and
+// if that refuses, the control goes back.
+import { Pane, type FolderApi } from 'tweakpane';
+import { colorNames } from './legend.ts';
+import type { ToolName, ToolSettings } from './pointer.ts';
+import type { ParameterValue, SceneEntry } from './scene_document.ts';
+import { addSlider, sliderRange, type SliderRange } from './slider.ts';
+import type { Backend } from './start_engine.ts';
+import type { ColorBy, ParameterInfo } from './weir.ts';
+
+export interface PanelHost {
+  readonly parameters: ParameterInfo[];
+  readonly scenes: SceneEntry[];
+  sceneName: string;
+  backend: Backend;
+  tool: ToolSettings;
+  colorBy: ColorBy;
+  parameter(name: string): number[];
+  particles(): number;
+  mostParticles(): number;
+  setParameter(name: string, value: ParameterValue): boolean; // false: refused
+  setParticles(count: number): boolean;
+  setBackend(backend: Backend): void;
+  setColorBy(colorBy: ColorBy): void;
+  setRadius(radius: number): void;
+  loadScene(name: string): void;
+  togglePause(): void;
+  restart(): void;
+  useStableStep(): void;
+}
+
+type Point = { x: number; y: number };
+
+// Shown apart from the method's own parameters.
+const speedName = 'time_scale';
+const words = (name: string): string => name.replaceAll('_', ' ');
+
+export class Panel {
+  readonly #host: PanelHost;
+  readonly #pane: Pane;
+  readonly #refreshers: (() => void)[] = [];
+  #quiet = false; // while the panel itself writes
+  #pauseButton: { title: string } | null = null;
+
+  constructor(container: HTMLElement, host: PanelHost, expanded: boolean) {
+    this.#host = host;
+    this.#pane = new Pane({ container, title: 'Controls', expanded });
+    this.#addScene(this.#pane.addFolder({ title: 'Scene' }));
+    this.#addTool(this.#pane.addFolder({ title: 'Tool' }));
+    this.#addView(this.#pane.addFolder({ title: 'View' }));
+    this.#addMethod(this.#pane.addFolder({ title: 'Method', expanded: innerHeight > 860 }));
+    this.refresh();
+  }
+
+  // Shows the values that hold now.
+  refresh(): void {
+    this.#quiet = true;
+    for (const refresher of this.#refreshers) refresher();
+    this.#quiet = false;
+  }
+
+  showPaused(paused: boolean): void {
+    if (this.#pauseButton) this.#pauseButton.title = paused ? 'Go on' : 'Pause';
+  }
+
+  #addScene(folder: FolderApi): void {
+    const host = this.#host;
+    const entries = Object.fromEntries(host.scenes.map((scene, n) => [`${n + 1}  ${scene.title}`, scene.name]));
+    this.#addList(folder, 'scene', { ...entries, '…': '' }, () => (host.scenes.some((s) => s.name === host.sceneName) ? host.sceneName : ''),
+      (name) => (name ? host.loadScene(name) : this.refresh()), 'What the fluid is and where it starts. Drop a scene file onto the page to see your own.');
+    const range = { low: 500, high: 50_000, log: true, fromZero: false };
+    this.#addNumber(folder, 'particles', range, () => host.particles(), (count) => host.setParticles(count),
+      'About so many: particle spacing, support radius and time step change together. Restarts the scene.', () => host.mostParticles());
+    const speed = host.parameters.find((info) => info.name === speedName);
+    if (speed) this.#addParameter(folder, speed, 'speed');
+    this.#addList(folder, 'solver', { 'automatic': 'auto', 'WebGPU': 'gpu', 'C on the CPU': 'cpu' }, () => host.backend,
+      (backend) => host.setBackend(backend as Backend), 'Automatic: WebGPU on a real graphics card, else the C solver.');
+    const pause = folder.addButton({ title: 'Pause' });
+    pause.on('click', () => host.togglePause());
+    this.#pauseButton = pause;
+    folder.addButton({ title: 'Restart' }).on('click', () => host.restart());
+  }
+
+  #addTool(folder: FolderApi): void {
+    const { tool } = this.#host;
+    this.#addList(folder, 'tool', { push: 'push', pull: 'pull', stir: 'stir' }, () => tool.tool, (name) => (tool.tool = name as ToolName),
+      'What the left button or a finger does. Right button: pull; Shift: stir; Ctrl: push.');
+    this.#addNumber(folder, 'radius', { low: 0.02, high: 0.6, log: true, fromZero: false }, () => tool.radius,
+      (radius) => (this.#host.setRadius(radius), true), 'Of the tool, in metres. Also by the wheel.');
+    this.#addNumber(folder, 'strength', { low: 0.1, high: 10, log: true, fromZero: false }, () => tool.strength,
+      (strength) => strength > 0 && strength <= 100 && ((tool.strength = strength), true), 'Of the tool; 1 is the usual one.');
+  }
+
+  #addView(folder: FolderApi): void {
+    const host = this.#host;
+    this.#addList(folder, 'colour by', colorNames, () => host.colorBy, (by) => host.setColorBy(Number(by)), 'The quantity that colours the particles.');
+  }
+
+  #addMethod(folder: FolderApi): void {
+    for (const info of this.#host.parameters) {
+      if (info.name !== speedName) this.#addParameter(folder, info, words(info.name));
+    }
+    folder.addButton({ title: 'Use the stable time step' }).on('click', () => this.#host.useStableStep());
+  }
+
+  #addParameter(folder: FolderApi, info: ParameterInfo, label: string): void {
+    const host = this.#host;
+    const restart = info.live ? '' : ' A change restarts the scene.';
+    const unit = info.unit === '1' ? '' : ` in ${info.unit}`;
+    const help = `${info.help}${unit} [${info.minimum} to ${info.maximum}]${restart}`;
+    if (info.kind === 'choice') {
+      const names = Object.fromEntries(info.choices.map((name) => [words(name), name]));
+      this.#addList(folder, label, names, () => info.choices[host.parameter(info.name)[0] ?? 0] ?? '',
+        (name) => host.setParameter(info.name, String(name)) || this.refresh(), `${info.help}${restart}`);
+    } else if (info.kind === 'vector') {
+      this.#addVector(folder, info, label, help);
+    } else {
+      const usual = host.parameter(info.name)[0] ?? info.default[0] ?? 1;
+      const range = sliderRange(usual > 0 ? usual : (info.default[0] ?? 1), info.minimum, info.maximum);
+      this.#addNumber(folder, label, range, () => host.parameter(info.name)[0] ?? 0,
+        (value) => host.setParameter(info.name, value), help);
+    }
+  }
+
+  #addList<T extends string | number>(
+    folder: FolderApi, label: string, options: Record<string, T>, get: () => T, set: (value: T) => void, help: string,
+  ): void {
+    const state = { value: get() };
+    const binding = folder.addBinding(state, 'value', { label, options });
+    binding.element.title = help;
+    binding.element.querySelector('select')?.setAttribute('aria-label', label);
+    binding.on('change', (event) => {
+      if (!this.#quiet) set(event.value);
+    });
+    this.#refreshers.push(() => {
+      state.value = get();
+      binding.refresh();
+    });
+  }
+
+  #addNumber(
+    folder: FolderApi, label: string, range: SliderRange, get: () => number, set: (value: number) => boolean, help: string,
+    most?: () => number,
+  ): void {
+    const state = { value: get() };
+    const format = (value: number): string => String(Number(value.toPrecision(5)));
+    const binding = folder.addBinding(state, 'value', { label, format, pointerScale: Math.max(state.value, range.low) / 100 });
+    binding.element.title = help;
+    binding.element.querySelector('input[type="text"]')?.setAttribute('aria-label', label);
+    const limits = { ...range };
+    const moveKnob = addSlider(binding.element, label, limits, (value) => {
+      const next = label === 'particles' ? Math.round(value) : value;
+      if (!set(next)) this.refresh();
+    });
+    binding.on('change', (event) => {
+      if (!this.#quiet && !set(event.value)) this.refresh();
+    });
+    this.#refreshers.push(() => {
+      state.value = get();
+      if (most) limits.high = most();
+      binding.refresh();
+      moveKnob(state.value);
+    });
+  }
+
+  #addVector(folder: FolderApi, info: ParameterInfo, label: string, help: string): void {
+    const get = (): Point => {
+      const [x = 0, y = 0] = this.#host.parameter(info.name);
+      return { x, y };
+    };
+    const state = { value: get() };
+    const axis = { format: (value: number): string => String(Number(value.toPrecision(4))) };
+    const binding = folder.addBinding(state, 'value', { label, x: axis, y: { ...axis, inverted: true } });
+    binding.element.title = help;
+    binding.on('change', (event) => {
+      const { x, y } = event.value;
+      if (!this.#quiet && !this.#host.setParameter(info.name, [x, y])) this.refresh();
+    });
+    this.#refreshers.push(() => {
+      state.value = get();
+      binding.refresh();
+    });
+  }
+}

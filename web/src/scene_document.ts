@@ -1,0 +1,54 @@
+// Scene documents (scenes/*.json) as the page edits them: plain JSON, checked by the core only.
+
+export type ParameterValue = number | number[] | string;
+
+export type SceneDocument = {
+  title?: string;
+  parameters?: Record<string, ParameterValue>;
+  fluid?: { velocity?: number[] }[];
+  [key: string]: unknown;
+};
+
+export type SceneEntry = { name: string; title: string };
+
+async function fetchJson(url: string | URL): Promise<unknown> {
+  let response: Response;
+  try {
+    response = await fetch(url);
+  } catch {
+    throw new Error(`${url}: cannot be reached`);
+  }
+  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+  return parseScene(await response.text(), String(url));
+}
+
+// Says which file is malformed; the engine's own message follows, with its line and column where it gives them.
+export function parseScene(text: string, name: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new Error(`${name}: no valid JSON: ${(error as Error).message}${placeOf(text, error as Error)}`);
+  }
+}
+
+// V8 gives an offset ("at position 17"), not always line and column.
+function placeOf(text: string, error: Error): string {
+  if (/line \d+/.test(error.message)) return '';
+  const found = /position (\d+)/.exec(error.message);
+  if (!found) return '';
+  const before = text.slice(0, Number(found[1])).split('\n');
+  return ` (line ${before.length}, column ${(before.at(-1)?.length ?? 0) + 1})`;
+}
+
+export const fetchSceneIndex = async (): Promise<SceneEntry[]> =>
+  (await fetchJson(new URL('scenes/index.json', document.baseURI))) as SceneEntry[];
+
+// A name from the index, or any URL of a scene file.
+export function fetchScene(nameOrUrl: string): Promise<unknown> {
+  const isName = /^[\w-]+$/.test(nameOrUrl);
+  return fetchJson(new URL(isName ? `scenes/${nameOrUrl}.json` : nameOrUrl, document.baseURI));
+}
+
+export function withParameters(scene: SceneDocument, changes: Record<string, ParameterValue>): SceneDocument {
+  return { ...scene, parameters: { ...scene.parameters, ...changes } };
+}

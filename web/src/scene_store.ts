@@ -1,0 +1,90 @@
+// The scene as it is now: the document that the page edits and the engine's own checked copy of it. A change either
+// passes all of the engine's checks or changes nothing.
+import { withParameters, type ParameterValue, type SceneDocument } from './scene_document.ts';
+import type { ParameterInfo, Scene, Weir } from './weir.ts';
+
+export type Derived = { particles: number; stableTimeStep: number; warning: string };
+
+export class SceneStore {
+  document: SceneDocument;
+  scene: Scene;
+  derived: Derived;
+  readonly #weir: Weir;
+
+  constructor(weir: Weir, document: SceneDocument) {
+    this.#weir = weir;
+    this.scene = this.#checked(document);
+    this.document = document;
+    this.derived = derive(this.scene);
+  }
+
+  #checked(document: SceneDocument): Scene {
+    const scene = this.#weir.loadScene(document);
+    try {
+      scene.check();
+      return scene;
+    } catch (error) {
+      scene.destroy();
+      throw error;
+    }
+  }
+
+  // Throws WeirError and keeps the last good one if the engine refuses.
+  replace(document: SceneDocument): void {
+    const scene = this.#checked(document);
+    this.scene.destroy();
+    this.scene = scene;
+    this.document = document;
+    this.derived = derive(scene);
+  }
+
+  set(name: string, value: ParameterValue): void {
+    this.replace(withParameters(this.document, { [name]: value }));
+  }
+
+  // The document with about `count` particles: lengths of the discretisation and the time step scale together, so
+  // neighbours per particle and stability stay what they are.
+  withParticles(count: number): SceneDocument {
+    if (!Number.isFinite(count) || count < 1) throw new Error(`particles: ${count}; must be 1 or more`);
+    let document = this.document;
+    let particles = this.derived.particles;
+    // The lattice does not fill a piece of fluid exactly: the second round mends most of it.
+    for (let round = 0; round < 3 && particles > 0 && Math.abs(particles / count - 1) > 0.005; round++) {
+      const next = this.#scaled(document, Math.sqrt(particles / count));
+      const scene = this.#weir.loadScene(next);
+      const made = scene.particleCount;
+      if (made === 0) {
+        // Let the engine say why, through check().
+        scene.destroy();
+        return next;
+      }
+      scene.destroy();
+      if (round > 0 && Math.abs(made / count - 1) >= Math.abs(particles / count - 1)) break;
+      document = next;
+      particles = made;
+    }
+    return document;
+  }
+
+  #scaled(document: SceneDocument, factor: number): SceneDocument {
+    const scene = this.#weir.loadScene(document);
+    const scaled = (name: string): number => Number(((scene.parameter(name)[0] ?? 0) * factor).toPrecision(6));
+    const changes = {
+      particle_spacing: scaled('particle_spacing'),
+      support_radius: scaled('support_radius'),
+      time_step: scaled('time_step'),
+    };
+    scene.destroy();
+    return withParameters(document, changes);
+  }
+
+  // A parameter's value as the document writes it, in numbers as the engine takes it while running.
+  numbers(info: ParameterInfo): number[] {
+    const values = this.scene.parameter(info.name);
+    return info.kind === 'vector' ? values : values.slice(0, 1);
+  }
+}
+
+function derive(scene: Scene): Derived {
+  return { particles: scene.particleCount, stableTimeStep: scene.stableTimeStep, warning: scene.warning };
+}

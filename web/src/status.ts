@@ -1,0 +1,79 @@
+// The status line: what runs, where, how fast and how true. Averages over about a second, written four times a second.
+import type { Engine } from './engine.ts';
+import { formatCount, formatNumber } from './format.ts';
+
+const windowMs = 1000;
+const writeMs = 250;
+
+const solverNames = { gpu: 'WebGPU', worker: 'C on the CPU', main: 'C on the CPU' } as const;
+export const solverName = (engine: Engine): string => solverNames[engine.kind];
+
+export class StatusLine {
+  readonly #numbers: HTMLElement;
+  readonly #details: HTMLElement;
+  #since = 0;
+  #sinceTime = 0;
+  #sinceSteps = 0;
+  #sinceFrames = 0;
+  #written = 0;
+  fps = 0;
+  realTimeFactor = 0;
+  stepsPerFrame = 0;
+
+  constructor(root: HTMLElement) {
+    this.#numbers = root.querySelector('#numbers') as HTMLElement;
+    this.#details = root.querySelector('#details') as HTMLElement;
+  }
+
+  // Another run: averages start anew.
+  restart(now: number, engine: Engine): void {
+    this.#since = now;
+    this.#sinceTime = engine.stats.time;
+    this.#sinceSteps = engine.stats.steps;
+    this.#sinceFrames = engine.stats.frames;
+  }
+
+  update(now: number, engine: Engine, paused: boolean): void {
+    const { stats } = engine;
+    const wall = now - this.#since;
+    if (stats.time < this.#sinceTime || stats.frames < this.#sinceFrames) this.restart(now, engine);
+    else if (wall >= windowMs || (this.fps === 0 && wall >= windowMs / 4)) {
+      const frames = stats.frames - this.#sinceFrames;
+      this.fps = (1000 * frames) / wall;
+      this.realTimeFactor = (1000 * (stats.time - this.#sinceTime)) / wall;
+      this.stepsPerFrame = frames > 0 ? (stats.steps - this.#sinceSteps) / frames : 0;
+      this.restart(now, engine);
+    }
+    if (now - this.#written < writeMs) return;
+    this.#written = now;
+    this.#write(engine, paused);
+  }
+
+  #write(engine: Engine, paused: boolean): void {
+    const { stats } = engine;
+    const { diagnostics } = stats;
+    const cells = [
+      cell(formatCount(stats.particles), 'particles'),
+      cell(this.fps < 10 ? formatNumber(this.fps, 2) : String(Math.round(this.fps)), 'FPS'),
+      paused
+        ? cell('paused', `at ${stats.time.toFixed(3)} s`)
+        : cell(`${this.realTimeFactor.toFixed(2)}×`, 'real time', this.realTimeFactor < 0.5 ? 'slow' : ''),
+      cell(formatNumber(this.stepsPerFrame, 2), 'steps/frame'),
+      cell(diagnostics ? `${formatNumber(100 * diagnostics.densityErrorMean, 2)} %` : '–', 'density error'),
+      cell(solverName(engine), ''),
+    ];
+    this.#numbers.replaceChildren(...cells);
+    const passes = stats.passes.map((pass) => `${pass.name} ${formatNumber(pass.milliseconds, 2)}`);
+    const timing = passes.length > 0 ? `ms per pass: ${passes.join(' · ')}` : `${formatNumber(stats.stepMs, 2)} ms per step`;
+    this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${stats.time.toFixed(1)} s simulated`;
+  }
+}
+
+function cell(value: string, label: string, className = ''): HTMLElement {
+  const span = document.createElement('span');
+  const bold = document.createElement('b');
+  bold.textContent = value;
+  span.className = className;
+  span.append(bold, label ? ` ${label}` : '');
+  return span;
+}
