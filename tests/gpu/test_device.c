@@ -81,11 +81,25 @@ static void a_device_lost_at_work_is_reported(void **state)
     weir_test_step(sim, 40);
     weir_sim_poll(sim);
     wgpuDeviceDestroy(weir_gpu_wgpu_device(gpu));
-    // What was queued may still get done before the loss is known.
-    WeirStatus status = WEIR_OK;
-    for (int n = 0; n < 3 && status == WEIR_OK; ++n) status = weir_sim_wait(sim);
-    for (int n = 0; n < 3 && status == WEIR_OK; ++n) status = weir_sim_poll(sim);
-    assert_int_equal(status, WEIR_ERROR_DEVICE);
+    // What was queued may still get done; the next command learns of the loss.
+    WeirStatus status = weir_sim_wait(sim);
+    assert_true(status == WEIR_OK || status == WEIR_ERROR_DEVICE);
+    assert_int_equal(weir_sim_step(sim, 1), WEIR_ERROR_DEVICE);
+    CHECK_CONTAINS(weir_sim_error(sim), "GPU device was destroyed");
+    weir_sim_destroy(sim);
+    weir_gpu_destroy(gpu);
+}
+
+// The state is being read when the device goes, by a command that wgpu-native would abort on.
+static void a_device_lost_before_a_read_is_reported(void **state)
+{
+    (void)state;
+    WeirGpu *gpu = weir_test_gpu(NULL);
+    WeirSim *sim = dam_on(gpu);
+    weir_test_step(sim, 2);
+    wgpuDeviceDestroy(weir_gpu_wgpu_device(gpu));
+    WeirDiagnostics diagnostics;
+    assert_int_equal(weir_sim_diagnose(sim, false, &diagnostics), WEIR_ERROR_DEVICE);
     CHECK_CONTAINS(weir_sim_error(sim), "GPU device was destroyed");
     weir_sim_destroy(sim);
     weir_gpu_destroy(gpu);
@@ -284,6 +298,7 @@ int main(void)
         cmocka_unit_test(device_may_be_destroyed_early),
         cmocka_unit_test(a_lost_device_is_reported),
         cmocka_unit_test(a_device_lost_at_work_is_reported),
+        cmocka_unit_test(a_device_lost_before_a_read_is_reported),
         cmocka_unit_test(a_shader_error_names_the_pass),
         cmocka_unit_test(a_refused_command_names_its_object),
         cmocka_unit_test(too_many_particles_are_refused),
