@@ -79,7 +79,8 @@ static void article_step_is_judged_rightly(void **state)
     weir_scene_destroy(scene);
 }
 
-// What the estimate must follow: c = sqrt(k) and length.
+// What the estimate must follow: c = sqrt(k) and length. It is rounded down to two digits, so by 10 % at
+// most.
 static void estimate_scales_with_the_method(void **state)
 {
     (void)state;
@@ -88,11 +89,11 @@ static void estimate_scales_with_the_method(void **state)
     weir_test_set(scene, "gas_constant", 1000);
     double base = weir_scene_stable_time_step(scene);
     weir_test_set(scene, "gas_constant", 4000);
-    CHECK_NEAR(weir_scene_stable_time_step(scene), base / 2, 1e-6 * base);
+    CHECK_NEAR(weir_scene_stable_time_step(scene), base / 2, 0.05 * base);
     weir_test_set(scene, "gas_constant", 1000);
     weir_test_set(scene, "particle_spacing", 0.002);
     weir_test_set(scene, "support_radius", 0.005);
-    CHECK_NEAR(weir_scene_stable_time_step(scene), base / 10, 1e-5 * base);
+    CHECK_NEAR(weir_scene_stable_time_step(scene), base / 10, 0.01 * base);
     weir_test_set(scene, "viscosity", 100);
     assert_true(weir_scene_stable_time_step(scene) < base / 10);
     // Without stiffness and viscosity nothing limits it but the parameter's own range.
