@@ -67,6 +67,7 @@ type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly 
 const OUT_OF_MEMORY = 'memory ran out';
 const DIAGNOSTIC_COUNT = 14;
 const MAX_PASSES = 32;
+const LONGEST_PATH = 255; // as in the native loader: no path of a scene is as long
 
 export class Weir {
   readonly version: string;
@@ -273,6 +274,7 @@ export class Scene {
   // The walk of a parsed document, the same as the native loader's (src/json/json_scene.c): objects extend the path by
   // ".key", lists of objects by "[index]"; anything that no scene holds is refused by the core, by name.
   setAll(path: string, value: unknown): void {
+    if (path.length > LONGEST_PATH) return this.#refuse(path, 'nested too deep');
     if (typeof value === 'number') return this.#setNumber(path, value);
     if (typeof value === 'string') return this.#setString(path, value);
     if (Array.isArray(value)) return this.#setList(path, value);

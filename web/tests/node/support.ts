@@ -25,10 +25,10 @@ export async function until<T>(probe: () => T | null | undefined | false, what: 
   throw new Error(`${what}: nothing happened for 60 s`);
 }
 
-// A canvas as the layer needs one: its textures come from Dawn.
+// A canvas as the layer needs one: its textures come from Dawn, and `shown` is the last of them.
 export function fakeCanvas(): OffscreenCanvas {
   let configured: GPUCanvasConfiguration | null = null;
-  const canvas = { width: 300, height: 150, getContext };
+  const canvas = { width: 300, height: 150, getContext, shown: null as GPUTexture | null };
   const context = {
     configure(configuration: GPUCanvasConfiguration) {
       configured = configuration;
@@ -39,7 +39,9 @@ export function fakeCanvas(): OffscreenCanvas {
     getCurrentTexture(): GPUTexture {
       if (!configured) throw new Error('the canvas is not configured');
       const { device, format, usage = GPUTextureUsage.RENDER_ATTACHMENT } = configured;
-      return device.createTexture({ format, usage, size: [canvas.width, canvas.height] });
+      const size = [canvas.width, canvas.height];
+      canvas.shown = device.createTexture({ format, usage: usage | GPUTextureUsage.COPY_SRC, size });
+      return canvas.shown;
     },
   };
   function getContext(kind: string) {

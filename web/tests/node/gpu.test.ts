@@ -1,0 +1,259 @@
+// weir.wasm on WebGPU (Dawn in Node, a software adapter): parity with the C solver, drawing, and how it fails.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { ColorBy, Field, Status, ToolKind, Weir, WeirError, type Gpu, type Sim, type View } from '../../src/weir.ts';
+import { fakeCanvas, gpu as browser, nextTurn, root, until, wasmFile } from './support.ts';
+
+const bytes = wasmFile('weir.wasm');
+const weir = await Weir.load(bytes, { gpu: browser });
+const gpu = weir.createGpu();
+await gpu.ready();
+after(() => {
+  gpu.destroy();
+  assert.equal(weir.liveGpuObjects, 0, 'handles are left');
+});
+
+// 800 particles or so: SwiftShader is slow.
+const dam = JSON.parse(readFileSync(join(root, 'scenes/dam_break.json'), 'utf8'));
+const spacing = 0.04;
+Object.assign(dam.parameters, { particle_spacing: spacing, support_radius: 2.5 * spacing });
+
+function start(device?: Gpu): Sim {
+  const scene = weir.loadScene(dam);
+  const sim = weir.createSim(scene, device ? { gpu: device } : {});
+  scene.destroy();
+  return sim;
+}
+
+const read = async (sim: Sim, field: Field): Promise<Float32Array> =>
+  (await until(() => (sim.poll(), sim.read(field)), 'read')).slice();
+const diagnose = (sim: Sim) => until(() => (sim.poll(), sim.diagnose(false)), 'diagnose');
+const farthest = (a: Float32Array, b: Float32Array): number =>
+  a.reduce((most, value, k) => Math.max(most, Math.abs(value - (b[k] as number))), 0);
+
+test('the device says what it is', () => {
+  assert.equal(gpu.poll(), Status.ok);
+  assert.ok(gpu.device.length > 3);
+  assert.equal(gpu.error, '');
+  assert.equal(gpu.nativeDevice?.constructor.name, 'GPUDevice');
+  if (/swiftshader/i.test(gpu.device)) assert.equal(gpu.isSoftware, true);
+});
+
+test('100 steps follow the C solver', async () => {
+  const reference = start();
+  const sim = start(gpu);
+  assert.equal(sim.backend, 'gpu');
+  assert.equal(sim.particleCount, reference.particleCount);
+  assert.deepEqual(await read(sim, Field.position), (reference.read(Field.position) as Float32Array).slice());
+  assert.equal(sim.step(100), undefined);
+  reference.step(100);
+  const position = await read(sim, Field.position);
+  const off = farthest(position, reference.read(Field.position) as Float32Array);
+  assert.ok(off < 1e-3 * spacing, `positions differ by ${off} m`);
+  const density = farthest(await read(sim, Field.density), reference.read(Field.density) as Float32Array);
+  assert.ok(density < 0.5, `densities differ by ${density} kg/m^3`);
+  const [found, wanted] = [await diagnose(sim), reference.diagnose(false)];
+  assert.equal(found.step, 100);
+  assert.equal(found.lostParticles, 0);
+  assert.ok(wanted && Math.abs(found.kineticEnergy / wanted.kineticEnergy - 1) < 1e-3);
+  sim.destroy();
+  reference.destroy();
+});
+
+test('two runs give the same bits', async () => {
+  const hashes: string[] = [];
+  for (let run = 0; run < 2; run++) {
+    const sim = start(gpu);
+    sim.step(60);
+    hashes.push((await diagnose(sim)).stateHash);
+    sim.destroy();
+  }
+  assert.equal(hashes[0], hashes[1]);
+});
+
+test('steps, tool, parameters and reset as on the CPU', async () => {
+  const sim = start(gpu);
+  const from = await read(sim, Field.position);
+  assert.equal(sim.advance(0.002), Math.floor(0.002 / (sim.parameter('time_step')[0] as number) + 1e-6));
+  sim.setParameter('gravity', [0, 0]);
+  const [left = 0, bottom = 0] = dam.domain.min as number[];
+  sim.setTool(ToolKind.push, left, bottom, 0, 0, 0.5, 50);
+  sim.step(20);
+  const velocity = await read(sim, Field.velocity);
+  assert.ok(Math.max(...velocity) > 0.02);
+  assert.throws(() => sim.setParameter('support_radius', 1), WeirError);
+  sim.reset();
+  assert.deepEqual(await read(sim, Field.position), from);
+  const moved = from.map((x) => 0.9 * x);
+  sim.setState(moved, from.map(() => 0));
+  assert.deepEqual(await read(sim, Field.position), moved);
+  sim.destroy();
+});
+
+test('passes are timed by name', async (context) => {
+  if (!gpu.nativeDevice?.features.has('timestamp-query')) return context.skip('no timestamps here');
+  const sim = start(gpu);
+  const times = await until(() => {
+    sim.step(1);
+    sim.poll();
+    const found = sim.passTimes();
+    return found.length > 0 && found.some((pass) => pass.milliseconds > 0) ? found : null;
+  }, 'pass times');
+  assert.deepEqual(
+    ['count', 'scatter', 'density', 'forces', 'integrate'].filter((name) => !times.some((pass) => pass.name === name)),
+    [],
+  );
+  sim.destroy();
+});
+
+test('device memory comes back', async () => {
+  const before = gpu.memory;
+  const handles = weir.liveGpuObjects;
+  for (let k = 0; k < 3; k++) {
+    const sim = start(gpu);
+    assert.ok(gpu.memory > before + 60 * sim.particleCount);
+    assert.ok(gpu.memory < before + 160 * sim.particleCount + 300_000);
+    sim.step(3);
+    await diagnose(sim);
+    const running = weir.liveGpuObjects;
+    const memory = gpu.memory;
+    for (let frame = 0; frame < 20; frame++) {
+      sim.step(3);
+      sim.poll();
+      await nextTurn();
+    }
+    await diagnose(sim);
+    assert.equal(gpu.memory, memory);
+    assert.ok(weir.liveGpuObjects <= running, 'handles pile up');
+    sim.destroy();
+  }
+  assert.equal(gpu.memory, before);
+  assert.equal(weir.liveGpuObjects, handles);
+});
+
+// Draws into a canvas whose texture can be read back.
+test('the renderer draws particles where they are', async () => {
+  const device = gpu.nativeDevice as GPUDevice;
+  const canvas = fakeCanvas();
+  canvas.width = 256;
+  canvas.height = 256;
+  const handles = weir.liveGpuObjects;
+  const renderer = weir.createRenderer(gpu, canvas);
+  const sim = start(gpu);
+  const from = await read(sim, Field.position); // the first particle is the lowest on the left
+  const view: View = {
+    colorBy: ColorBy.speed, colorMin: 0, colorMax: 1, center: [from[0] as number, from[1] as number],
+    pixelsPerMeter: 128, particleRadius: 0.03, toolPosition: [0, 0], toolRadius: 0, toolPressed: 0,
+  };
+  assert.equal(renderer.draw(sim, view), Status.ok);
+  assert.equal(renderer.draw(sim, view), Status.ok);
+  canvas.width = 512; // what a page does when its window grows
+  assert.equal(renderer.draw(sim, view), Status.ok);
+  assert.equal(gpu.poll(), Status.ok, gpu.error);
+  const shown = (canvas as unknown as { shown: GPUTexture }).shown;
+  assert.equal(shown.width, 512);
+  const pixels = await copyOf(device, shown);
+  const bright = (x: number, y: number): number => {
+    const at = 4 * (y * 512 + x);
+    return (pixels[at] as number) + (pixels[at + 1] as number) + (pixels[at + 2] as number);
+  };
+  const inside = bright(256 + 30, 128 - 30);
+  const outside = bright(256 - 60, 128 + 60); // beyond the walls
+  assert.ok(inside > outside + 60, `fluid ${inside}, empty ${outside}`);
+  const onCpu = start();
+  assert.equal(renderer.draw(onCpu, view), Status.input); // it has no buffers to draw from
+  onCpu.destroy();
+  sim.destroy();
+  renderer.destroy();
+  assert.equal(weir.liveGpuObjects, handles);
+});
+
+async function copyOf(device: GPUDevice, texture: GPUTexture): Promise<Uint8Array> {
+  const bytesPerRow = 4 * texture.width;
+  const usage = GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST;
+  const buffer = device.createBuffer({ size: bytesPerRow * texture.height, usage });
+  const encoder = device.createCommandEncoder();
+  encoder.copyTextureToBuffer({ texture }, { buffer, bytesPerRow }, [texture.width, texture.height]);
+  device.queue.submit([encoder.finish()]);
+  await buffer.mapAsync(GPUMapMode.READ);
+  return new Uint8Array(buffer.getMappedRange().slice(0));
+}
+
+test('colour maps', () => {
+  for (const by of [ColorBy.speed, ColorBy.density, ColorBy.densityError, ColorBy.pressure]) {
+    const map = weir.colorMap(by);
+    assert.equal(map.length, 768);
+    assert.ok(farthest(new Float32Array(map.slice(0, 3)), new Float32Array(map.slice(-3))) > 40);
+  }
+});
+
+test('a canvas without WebGPU is refused', () => {
+  const canvas = { width: 1, height: 1, getContext: () => null } as unknown as OffscreenCanvas;
+  assert.throws(() => weir.createRenderer(gpu, canvas), /WebGPU/);
+});
+
+// ---- Failures ----
+
+test('a lost device is told, and the next one works', async () => {
+  const lost = weir.createGpu();
+  await lost.ready();
+  const sim = start(lost);
+  sim.step(1);
+  lost.nativeDevice?.destroy();
+  await until(() => lost.poll() !== Status.ok, 'the loss');
+  assert.equal(lost.poll(), Status.device);
+  assert.match(lost.error, /destroyed|lost/);
+  assert.equal(sim.poll(), Status.device);
+  assert.match(sim.error, /destroyed|lost/);
+  assert.throws(() => sim.step(1), WeirError);
+  assert.throws(() => start(lost), WeirError);
+  sim.destroy();
+  lost.destroy();
+  const next = weir.createGpu();
+  await next.ready();
+  const again = start(next);
+  again.step(2);
+  assert.equal((await diagnose(again)).step, 2);
+  again.destroy();
+  next.destroy();
+});
+
+test('no WebGPU, no adapter, no device: a message each', async () => {
+  const none = await Weir.load(bytes, { gpu: null });
+  const missing = none.createGpu();
+  await assert.rejects(missing.ready(), (error: WeirError) => error.status === Status.device && /WebGPU/.test(error.message));
+  missing.destroy();
+  const empty = { ...browser, requestAdapter: async () => null } as unknown as GPU;
+  const bare = await Weir.load(bytes, { gpu: empty });
+  const without = bare.createGpu();
+  await assert.rejects(without.ready(), /no WebGPU adapter/);
+  without.destroy();
+  assert.equal(bare.liveGpuObjects, 0);
+  const adapter = await browser.requestAdapter();
+  const broken = Object.create(adapter as object, {
+    limits: { get: () => adapter?.limits }, features: { get: () => adapter?.features },
+    info: { get: () => adapter?.info }, requestDevice: { value: () => Promise.reject(new Error('out of devices')) },
+  });
+  const refusing = await Weir.load(bytes, { gpu: { requestAdapter: async () => broken } as unknown as GPU });
+  const refused = refusing.createGpu();
+  await assert.rejects(refused.ready(), /out of devices/);
+  refused.destroy();
+  assert.equal(refusing.liveGpuObjects, 0);
+});
+
+test('a GPU that is destroyed while it starts leaves nothing behind', async () => {
+  const other = await Weir.load(bytes, { gpu: browser });
+  for (let turns = 0; turns < 12; turns++) {
+    const early = other.createGpu();
+    for (let turn = 0; turn < turns; turn++) {
+      early.poll();
+      await nextTurn();
+    }
+    early.destroy();
+  }
+  await nextTurn();
+  for (let turn = 0; turn < 50; turn++) await nextTurn();
+  assert.equal(other.liveGpuObjects, 0);
+});
