@@ -203,6 +203,7 @@ void weir_gpu_destroy(WeirGpu *gpu)
 {
     if (!gpu) return;
     gpu->destroyed = true;
+    ++gpu->callbacks; // this one: the instance's release may run all others, and the last one frees
     if (gpu->queue) wgpuQueueRelease(gpu->queue);
     if (gpu->device) {
         wgpuDeviceDestroy(gpu->device);
@@ -210,6 +211,7 @@ void weir_gpu_destroy(WeirGpu *gpu)
     }
     if (gpu->adapter) wgpuAdapterRelease(gpu->adapter);
     if (gpu->instance) wgpuInstanceRelease(gpu->instance);
+    --gpu->callbacks;
     free_if_unused(gpu);
 }
 
