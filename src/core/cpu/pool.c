@@ -48,9 +48,9 @@ struct WeirPool {
     pthread_t thread[MAX_THREADS];
     pthread_mutex_t mutex;
     pthread_cond_t work, done;
-    uint64_t round;   // of loops; a worker that sees a new one joins it
-    uint32_t running; // workers that have not left the loop
-    bool stop;
+    atomic_uint round;   // of loops; a worker that sees a new one joins it
+    atomic_uint running; // workers that have not left the loop
+    atomic_bool stop;
     WeirPoolBody *body;
     void *context;
     uint32_t items, chunk;
@@ -67,22 +67,56 @@ static void take_chunks(WeirPool *pool)
     }
 }
 
+static inline void pause_core(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+// Loops follow one another within microseconds: looking for the next one a while costs less than sleeping.
+enum { SPINS = 500 };
+
+static bool next_round(WeirPool *pool, uint32_t seen)
+{
+    return atomic_load_explicit(&pool->round, memory_order_acquire) != seen || atomic_load(&pool->stop);
+}
+
+static void wait_for_round(WeirPool *pool, uint32_t seen)
+{
+    for (int n = 0; n < SPINS; ++n) {
+        if (next_round(pool, seen)) return;
+        pause_core();
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (!next_round(pool, seen)) pthread_cond_wait(&pool->work, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+static void wait_for_workers(WeirPool *pool)
+{
+    for (int n = 0; n < SPINS; ++n) {
+        if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0) return;
+        pause_core();
+    }
+    pthread_mutex_lock(&pool->mutex);
+    while (atomic_load(&pool->running) > 0) pthread_cond_wait(&pool->done, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}
+
 static void *worker(void *argument)
 {
     WeirPool *pool = argument;
-    uint64_t seen = 0;
-    pthread_mutex_lock(&pool->mutex);
-    for (;;) {
-        while (pool->round == seen && !pool->stop) pthread_cond_wait(&pool->work, &pool->mutex);
-        if (pool->stop) break;
-        seen = pool->round;
-        pthread_mutex_unlock(&pool->mutex);
+    for (uint32_t seen = 0;; ++seen) {
+        wait_for_round(pool, seen);
+        if (atomic_load(&pool->stop)) return NULL;
         take_chunks(pool);
-        pthread_mutex_lock(&pool->mutex);
-        if (--pool->running == 0) pthread_cond_signal(&pool->done);
+        if (atomic_fetch_sub_explicit(&pool->running, 1, memory_order_acq_rel) == 1) {
+            pthread_mutex_lock(&pool->mutex);
+            pthread_cond_signal(&pool->done);
+            pthread_mutex_unlock(&pool->mutex);
+        }
     }
-    pthread_mutex_unlock(&pool->mutex);
-    return NULL;
 }
 
 WeirPool *weir_pool_create(uint32_t threads)
@@ -108,7 +142,7 @@ void weir_pool_destroy(WeirPool *pool)
 {
     if (!pool) return;
     pthread_mutex_lock(&pool->mutex);
-    pool->stop = true;
+    atomic_store(&pool->stop, true);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->mutex);
     for (uint32_t n = 1; n < pool->threads; ++n) pthread_join(pool->thread[n], NULL);
@@ -136,14 +170,12 @@ void weir_pool_run(WeirPool *pool, uint32_t items, uint32_t chunk, WeirPoolBody 
     pool->items = items;
     pool->chunk = chunk;
     atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
-    pool->running = pool->threads - 1;
-    ++pool->round;
+    atomic_store_explicit(&pool->running, pool->threads - 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(&pool->round, 1, memory_order_release);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->mutex);
     take_chunks(pool);
-    pthread_mutex_lock(&pool->mutex);
-    while (pool->running > 0) pthread_cond_wait(&pool->done, &pool->mutex);
-    pthread_mutex_unlock(&pool->mutex);
+    wait_for_workers(pool);
 }
 
 #endif
