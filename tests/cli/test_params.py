@@ -28,6 +28,11 @@ class Lists(WeirTest):
             self.assertIn(f"\n{name} ", table)
             self.assertIn(f"| `{name}` |", markdown)
 
+    def test_table_tells_what_is_live(self):
+        table, _ = self.weir("params")
+        self.assertRegex(table, r"\ngas_constant +m\^2/s\^2 +2000 +0 to 1e\+07 +yes +Stiffness")
+        self.assertRegex(table, r"\nparticle_spacing +m +0.01 +1e-05 to 10 +no +Distance")
+
     def test_numbers_of_one_parameter(self):
         listed = {entry["name"]: entry for entry in json.loads(self.weir("params", "--json")[0])}
         self.assertEqual(listed["gas_constant"]["unit"], "m^2/s^2")

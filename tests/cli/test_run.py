@@ -87,6 +87,8 @@ class Json(RunTest):
     def test_time_rounds_to_whole_steps(self):
         for seconds, steps in (("0.01", 20), ("0.0101", 21), ("0.0005", 1), ("0.0001", 1)):
             self.assertEqual(self.on_cpu("--time", seconds)["steps"], steps)
+        # As float32 this step is a little less than 0.9 ms: ten of them fall short of 9 ms by rounding alone.
+        self.assertEqual(self.on_cpu("--time", "0.009", "--set", "time_step=0.0009")["steps"], 10)
 
     def test_same_bits_for_every_thread_count_and_search(self):
         hashes = {self.on_cpu("--steps", 50, "--threads", n)["state_hash"] for n in (1, 2, 7)}
