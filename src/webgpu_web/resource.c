@@ -120,12 +120,13 @@ WGPUTextureView wgpuTextureCreateView(WGPUTexture texture, const WGPUTextureView
     static const WGPUTextureViewDescriptor defaults = WGPU_TEXTURE_VIEW_DESCRIPTOR_INIT;
     if (!descriptor) descriptor = &defaults;
     uint32_t levels = descriptor->mipLevelCount, layers = descriptor->arrayLayerCount;
-    return WEIR_OBJECT(WGPUTextureView,
-                       weir_js_texture_view(
-                           WEIR_ID(texture), WEIR_TEXT(descriptor->label), descriptor->format,
-                           descriptor->dimension, descriptor->baseMipLevel,
-                           levels == WGPU_MIP_LEVEL_COUNT_UNDEFINED ? -1 : levels, descriptor->baseArrayLayer,
-                           layers == WGPU_ARRAY_LAYER_COUNT_UNDEFINED ? -1 : layers, descriptor->aspect));
+    return WEIR_OBJECT(
+        WGPUTextureView,
+        weir_js_texture_view(WEIR_ID(texture), WEIR_TEXT(descriptor->label), descriptor->format,
+                             descriptor->dimension, descriptor->baseMipLevel,
+                             levels == WGPU_MIP_LEVEL_COUNT_UNDEFINED ? -1.0 : levels,
+                             descriptor->baseArrayLayer,
+                             layers == WGPU_ARRAY_LAYER_COUNT_UNDEFINED ? -1.0 : layers, descriptor->aspect));
 }
 
 void wgpuTextureDestroy(WGPUTexture texture)
