@@ -157,8 +157,27 @@ static int test_timestamps(uint32_t step)
     CHECK(world.error_count == 0);
     CHECK(back[0] > 0 && back[1] >= back[0] && back[2] >= back[1]);
     free_compute(&compute);
-    wgpuQuerySetDestroy(compute.times);
     wgpuQuerySetRelease(compute.times);
+    wgpuBufferRelease(resolved);
+    return DONE;
+}
+
+// What is destroyed cannot be used in a submit.
+static int test_destroy_query_set(uint32_t step)
+{
+    static WGPUBuffer resolved;
+    if (step == 0) {
+        WGPUQuerySetDescriptor descriptor = {.type = WGPUQueryType_Occlusion, .count = 1};
+        WGPUQuerySet queries = wgpuDeviceCreateQuerySet(world.device, &descriptor);
+        resolved = weir_test_buffer(WGPUBufferUsage_QueryResolve, 256);
+        WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(world.device, NULL);
+        wgpuCommandEncoderResolveQuerySet(encoder, queries, 0, 1, resolved, 0);
+        wgpuQuerySetDestroy(queries);
+        wgpuQuerySetRelease(queries);
+        weir_test_submit(encoder);
+    }
+    if (world.error_count == 0) return PENDING;
+    CHECK(world.error_type == WGPUErrorType_Validation);
     wgpuBufferRelease(resolved);
     return DONE;
 }
@@ -314,9 +333,30 @@ static int test_render(uint32_t step)
     CHECK(is_color(back + (SIZE / 2) * ROW + 4 * (SIZE / 2 + 1), 51, 102, 153)); // right: cleared
     CHECK(is_color(back + (SIZE / 2) * ROW + 4 * (SIZE / 2 - 2), 153, 51, 77));  // left: half red on it
     wgpuTextureViewRelease(render.view);
-    wgpuTextureDestroy(render.texture);
     wgpuTextureRelease(render.texture);
     free_render(&render);
+    return DONE;
+}
+
+static int test_destroy_texture(uint32_t step)
+{
+    static WGPUBuffer pixels;
+    if (step == 0) {
+        WGPUTextureDescriptor descriptor = {.usage = WGPUTextureUsage_CopySrc,
+                                            .dimension = WGPUTextureDimension_2D,
+                                            .size = {SIZE, SIZE, 1},
+                                            .format = WGPUTextureFormat_RGBA8Unorm,
+                                            .mipLevelCount = 1,
+                                            .sampleCount = 1};
+        WGPUTexture texture = wgpuDeviceCreateTexture(world.device, &descriptor);
+        pixels = weir_test_buffer(WGPUBufferUsage_CopyDst, SIZE * ROW);
+        wgpuTextureDestroy(texture);
+        copy_pixels(texture, pixels);
+        wgpuTextureRelease(texture);
+    }
+    if (world.error_count == 0) return PENDING;
+    CHECK(world.error_type == WGPUErrorType_Validation);
+    wgpuBufferRelease(pixels);
     return DONE;
 }
 
@@ -379,14 +419,16 @@ const WeirTest weir_pass_tests[] = {
      "wgpuComputePassEncoderSetPipeline wgpuComputePassEncoderSetBindGroup "
      "wgpuComputePassEncoderDispatchWorkgroups wgpuComputePassEncoderEnd wgpuComputePassEncoderRelease",
      test_compute, false},
-    {"wgpuDeviceCreateQuerySet wgpuCommandEncoderResolveQuerySet wgpuQuerySetDestroy wgpuQuerySetRelease",
-     test_timestamps, false},
+    {"wgpuDeviceCreateQuerySet wgpuCommandEncoderResolveQuerySet wgpuQuerySetRelease", test_timestamps,
+     false},
+    {"wgpuQuerySetDestroy", test_destroy_query_set, false},
     {"wgpuDeviceCreateTexture wgpuTextureGetWidth wgpuTextureGetHeight wgpuTextureGetFormat "
-     "wgpuTextureCreateView wgpuTextureViewRelease wgpuTextureDestroy wgpuTextureRelease "
+     "wgpuTextureCreateView wgpuTextureViewRelease wgpuTextureRelease "
      "wgpuDeviceCreateRenderPipeline wgpuRenderPipelineRelease wgpuCommandEncoderBeginRenderPass "
      "wgpuRenderPassEncoderSetPipeline wgpuRenderPassEncoderSetBindGroup wgpuRenderPassEncoderDraw "
      "wgpuRenderPassEncoderEnd wgpuRenderPassEncoderRelease wgpuCommandEncoderCopyTextureToBuffer",
      test_render, false},
+    {"wgpuTextureDestroy", test_destroy_texture, false},
     {"weir_webgpu_canvas_surface wgpuSurfaceGetCapabilities wgpuSurfaceCapabilitiesFreeMembers "
      "wgpuSurfaceConfigure wgpuSurfaceGetCurrentTexture wgpuSurfacePresent wgpuSurfaceUnconfigure "
      "wgpuSurfaceRelease",
