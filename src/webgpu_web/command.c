@@ -3,12 +3,12 @@
 
 static double query_index(uint32_t index)
 {
-    return index == WGPU_QUERY_SET_INDEX_UNDEFINED ? -1 : index;
+    return index == WGPU_QUERY_SET_INDEX_UNDEFINED ? -1.0 : index;
 }
 
 static double stride(uint32_t size)
 {
-    return size == WGPU_COPY_STRIDE_UNDEFINED ? -1 : size;
+    return size == WGPU_COPY_STRIDE_UNDEFINED ? -1.0 : size;
 }
 
 static const WGPUPassTimestampWrites no_timestamps = WGPU_PASS_TIMESTAMP_WRITES_INIT;
@@ -124,7 +124,7 @@ WGPURenderPassEncoder wgpuCommandEncoderBeginRenderPass(WGPUCommandEncoder encod
     for (size_t k = 0; k < descriptor->colorAttachmentCount; k++) {
         const WGPURenderPassColorAttachment *color = &descriptor->colorAttachments[k];
         uint32_t slice = color->depthSlice;
-        weir_js_color_attachment(WEIR_ID(color->view), slice == WGPU_DEPTH_SLICE_UNDEFINED ? -1 : slice,
+        weir_js_color_attachment(WEIR_ID(color->view), slice == WGPU_DEPTH_SLICE_UNDEFINED ? -1.0 : slice,
                                  WEIR_ID(color->resolveTarget), color->loadOp, color->storeOp,
                                  color->clearValue.r, color->clearValue.g, color->clearValue.b,
                                  color->clearValue.a);
