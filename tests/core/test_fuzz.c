@@ -120,10 +120,11 @@ static WeirStatus random_call(WeirScene *scene, WeirRandom *random)
     }
 }
 
-// Compared by value: padding may differ.
+// All but the messages. `b` is a copy of `a` as it was, padding included.
 static bool is_same(const WeirScene *a, const WeirScene *b)
 {
     return strcmp(a->title, b->title) == 0 && a->fluid_count == b->fluid_count &&
+           memcmp(a->fluid, b->fluid, a->fluid_count * sizeof a->fluid[0]) == 0 &&
            memcmp(&a->parameters, &b->parameters, sizeof a->parameters) == 0 &&
            memcmp(a->domain_min, b->domain_min, sizeof a->domain_min) == 0 &&
            memcmp(a->domain_max, b->domain_max, sizeof a->domain_max) == 0;

@@ -13,14 +13,14 @@ typedef struct Configuration {
 } Configuration;
 
 static const Configuration configurations[] = {
-    {"article, 13 neighbours", 0.0225, 0.045, 2000, 0.1, 1.6},
-    {"article, 20 neighbours", 0.018, 0.045, 2000, 0.1, 1.6},
-    {"article, 50 neighbours", 0.01125, 0.045, 2000, 0.1, 1.6},
-    {"soft", 0.02, 0.05, 200, 0.1, 1.6},
-    {"stiff", 0.02, 0.05, 20000, 0.1, 1.6},
-    {"small", 0.002, 0.005, 2000, 0.1, 1.6},
-    {"viscous", 0.02, 0.05, 2000, 50, 2.2},
-    {"honey", 0.02, 0.05, 2000, 400, 3.2},
+    {"article, 13 neighbours", 0.0225, 0.045, 2000, 0.1, 1.8},
+    {"article, 20 neighbours", 0.018, 0.045, 2000, 0.1, 1.8},
+    {"article, 50 neighbours", 0.01125, 0.045, 2000, 0.1, 1.8},
+    {"soft", 0.02, 0.05, 200, 0.1, 1.8},
+    {"stiff", 0.02, 0.05, 20000, 0.1, 1.8},
+    {"small", 0.002, 0.005, 2000, 0.1, 1.8},
+    {"viscous", 0.02, 0.05, 2000, 50, 2.4},
+    {"honey", 0.02, 0.05, 2000, 400, 3.5},
 };
 enum { CONFIGURATIONS = sizeof configurations / sizeof configurations[0] };
 
