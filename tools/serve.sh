@@ -8,5 +8,9 @@ open=()
 if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] && command -v xdg-open >/dev/null; then
     open=(--open)
 fi
+if (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; then
+    echo "Port $port is in use on this machine. Another one: make run PORT=$((port + 1))" >&2
+    exit 1
+fi
 echo "Weir's page: http://127.0.0.1:$port/ (Ctrl-C ends it)"
 exec node_modules/.bin/vite preview --host 127.0.0.1 --port "$port" --strictPort "${open[@]}"
