@@ -33,7 +33,7 @@ export class WorkerEngine implements Engine {
   #front: ArrayBuffer | null = null; // being drawn
   #asked = 0; // when the frame under way was asked for; 0: none
   #patience = longPatienceMs;
-  #owedWall = 0;
+  #wallSince = 0; // when the wall time began that the next frame is to simulate; 0: paused
   #deaths = 0;
   #stopped = false;
   #destroyed = false;
@@ -119,26 +119,29 @@ export class WorkerEngine implements Engine {
     stats.stepMs = message.stepMs;
     if (message.diagnostics) stats.diagnostics = message.diagnostics;
     this.#picture.setValues(new Float32Array(message.buffer));
-    if (message.busyMs > busyEnoughMs) this.#ask();
+    if (message.busyMs > busyEnoughMs && this.#wallSince > 0) this.#ask();
   }
 
   #ask(): void {
     if (this.#asked !== 0 || !this.#back || this.#stopped || this.#waiting) return;
     const message = this.#frameMessage;
-    message.wallSeconds = this.#owedWall;
+    const now = performance.now();
+    message.wallSeconds = this.#wallSince > 0 ? (now - this.#wallSince) / 1000 : 0;
     message.buffer = this.#back;
-    this.#owedWall = 0;
+    if (this.#wallSince > 0) this.#wallSince = now;
     this.#back = null;
-    this.#asked = performance.now();
+    this.#asked = now;
     this.worker.postMessage(message, [message.buffer]);
   }
 
   frame(wallSeconds: number, intervalMs: number, tool: Tool, view: View): void {
-    this.#owedWall += wallSeconds;
+    const now = performance.now();
+    if (wallSeconds === 0) this.#wallSince = 0;
+    else if (this.#wallSince === 0) this.#wallSince = now - 1000 * wallSeconds;
     Object.assign(this.#frameMessage.tool, tool);
     this.#frameMessage.colorBy = view.colorBy;
     this.#frameMessage.budgetMs = Math.max(0.75 * intervalMs, 4);
-    if (this.#asked !== 0 && performance.now() - this.#asked > this.#patience) this.#died('the worker does not answer');
+    if (this.#asked !== 0 && now - this.#asked > this.#patience) this.#died('the worker does not answer');
     this.#ask();
     this.#picture.draw(view);
   }

@@ -69,13 +69,21 @@ export class SceneStore {
   #scaled(document: SceneDocument, factor: number): SceneDocument {
     const scene = this.#weir.loadScene(document);
     const scaled = (name: string): number => Number(((scene.parameter(name)[0] ?? 0) * factor).toPrecision(6));
+    const wasStable = (scene.parameter('time_step')[0] ?? 0) <= scene.stableTimeStep;
+    const timeStep = scaled('time_step');
     const changes = {
       particle_spacing: scaled('particle_spacing'),
       support_radius: scaled('support_radius'),
-      time_step: scaled('time_step'),
+      time_step: timeStep,
     };
     scene.destroy();
-    return withParameters(document, changes);
+    const next = withParameters(document, changes);
+    if (!wasStable) return next;
+    // The engine rounds its estimate down: a stable step must not become an unstable one by that.
+    const check = this.#weir.loadScene(next);
+    const stable = check.stableTimeStep;
+    check.destroy();
+    return withParameters(next, { time_step: Math.min(timeStep, stable) });
   }
 
   // A parameter's value as the document writes it, in numbers as the engine takes it while running.
