@@ -12,6 +12,8 @@
 
 #include "gpu/report.h"
 
+#include <assert.h>
+
 #define WEIR_BUFFERS                                                                                         \
     WEIR_BUFFER(position, 8, 0)                                                                              \
     WEIR_BUFFER(velocity, 8, 0)                                                                              \
@@ -46,6 +48,7 @@ typedef struct WeirDeviceHealth {
     uint32_t step;           // low 32 bits of the step that forces ran last
     uint32_t padding;
 } WeirDeviceHealth;
+static_assert(sizeof(WeirDeviceHealth) == 16, "a size that copies and bindings take");
 
 typedef struct WeirBuffers {
     WeirGpu *gpu;

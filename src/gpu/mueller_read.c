@@ -17,9 +17,10 @@ static void take_health(WeirMueller *solver)
 {
     const WeirDeviceHealth *found = weir_readback_data(solver->health_copy);
     solver->health_known_work = solver->health_work;
-    if (found && solver->health_work >= solver->state_work) {
-        solver->health.bad_particles = found->bad_particles;
-        solver->health.first_bad_step = found->bad_particles ? widen_step(solver, found->first_bad_step) : 0;
+    if (found && solver->health_work >= solver->state_work && found->first_bad_step != UINT32_MAX) {
+        // The count may have wrapped around to 0 in a long blow-up.
+        solver->health.bad_particles = found->bad_particles ? found->bad_particles : UINT32_MAX;
+        solver->health.first_bad_step = widen_step(solver, found->first_bad_step);
     }
     weir_readback_finish(solver->health_copy);
 }
