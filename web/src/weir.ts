@@ -3,7 +3,9 @@
 
 import { wasiImports } from './wasi.ts';
 import { WebGpuImports, type Canvas } from './webgpu_imports.ts';
-import { WeirMemory, type WeirExports } from './weir_memory.ts';
+import { OUT_OF_MEMORY, Status, WeirError, WeirMemory, type WeirExports } from './weir_memory.ts';
+
+export { Status, WeirError };
 
 export type ParameterInfo = {
   name: string;
@@ -17,7 +19,6 @@ export type ParameterInfo = {
   live: boolean;
 };
 
-export const enum Status { ok = 0, pending = 1, input = 2, memory = 3, device = 4, unstable = 5, lost = 6 }
 export const enum Field { position = 0, velocity = 1, acceleration = 2, density = 3, pressure = 4 }
 export const enum ToolKind { none = 0, push = 1, pull = 2, stir = 3 }
 export const enum ColorBy { speed = 0, density = 1, densityError = 2, pressure = 3 }
@@ -51,20 +52,9 @@ export type View = {
   toolPressed: number; // 0 to 1
 };
 
-export class WeirError extends Error {
-  readonly status: Status;
-
-  constructor(status: Status, message: string) {
-    super(message);
-    this.name = 'WeirError';
-    this.status = status;
-  }
-}
-
 // What the objects below share.
 type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly webgpu: WebGpuImports; weir: Weir };
 
-const OUT_OF_MEMORY = 'memory ran out';
 const DIAGNOSTIC_COUNT = 14;
 const MAX_PASSES = 32;
 const LONGEST_PATH = 255; // as in the native loader: no path of a scene is as long
@@ -535,6 +525,8 @@ export class Renderer {
   constructor(context: Context, gpu: Gpu, canvas: Canvas) {
     this.#context = context;
     this.#canvas = canvas;
+    const status = gpu.poll();
+    if (status !== Status.ok) throw new WeirError(status, gpu.error || 'the GPU is still starting; await ready() first');
     const id = context.webgpu.registerCanvas(canvas);
     this.#pointer = context.c.weir_web_renderer_create(gpu.pointer, id);
     if (this.#pointer === 0)

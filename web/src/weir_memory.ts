@@ -1,6 +1,20 @@
-// The memory of weir.wasm as seen from JavaScript, and what the program exports.
+// The memory of weir.wasm as seen from JavaScript, what the program exports, and how it says that it failed.
 
 import type { WebGpuExports } from './webgpu_host.ts';
+
+export const enum Status { ok = 0, pending = 1, input = 2, memory = 3, device = 4, unstable = 5, lost = 6 }
+
+export const OUT_OF_MEMORY = 'memory ran out; close other pages or use fewer particles';
+
+export class WeirError extends Error {
+  readonly status: Status;
+
+  constructor(status: Status, message: string) {
+    super(message);
+    this.name = 'WeirError';
+    this.status = status;
+  }
+}
 
 type Call = (...values: number[]) => number;
 
@@ -54,7 +68,7 @@ export class WeirMemory {
 
   allocate(size: number): number {
     const at = this.#c.weir_web_allocate(size);
-    if (at === 0 && size > 0) throw new RangeError(`memory for ${size} bytes ran out`);
+    if (at === 0 && size > 0) throw new WeirError(Status.memory, OUT_OF_MEMORY);
     return at;
   }
 

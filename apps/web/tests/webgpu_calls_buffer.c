@@ -142,7 +142,30 @@ static int test_copy_and_clear(uint32_t step)
     return DONE;
 }
 
+// A label's text may change at its address from one call to the next; errors name the one that was given.
+static int test_labels(uint32_t step)
+{
+    static char label[] = "first";
+    if (step == 0) {
+        WGPUBuffer buffer = weir_test_buffer(WGPUBufferUsage_CopyDst, 16);
+        for (int k = 0; k < 2; k++) {
+            if (k == 1) memcpy(label, "other", 5);
+            WGPUCommandEncoderDescriptor named = {.label = {label, 5}};
+            WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(world.device, &named);
+            if (k == 1) wgpuCommandEncoderClearBuffer(encoder, buffer, 0, 1024); // larger than the buffer
+            WGPUCommandBuffer commands = wgpuCommandEncoderFinish(encoder, NULL);
+            wgpuCommandBufferRelease(commands);
+            wgpuCommandEncoderRelease(encoder);
+        }
+        wgpuBufferRelease(buffer);
+    }
+    if (world.error_count == 0) return PENDING;
+    CHECK(strstr(world.error, "\"other\"") && !strstr(world.error, "first"));
+    return DONE;
+}
+
 const WeirTest weir_buffer_tests[] = {
+    {"labels", test_labels, false},
     {"wgpuDeviceCreateBuffer wgpuBufferGetSize wgpuBufferGetUsage wgpuBufferAddRef wgpuBufferRelease",
      test_create, false},
     {"wgpuBufferGetMappedRange", test_mapped_at_creation, false},
