@@ -61,6 +61,13 @@ const char *weir_pass_name(WeirPass pass)
     return table[pass].name;
 }
 
+uint32_t weir_pass_storage_buffers(WeirPass pass)
+{
+    uint32_t count = 0;
+    for (uint32_t bound = table[pass].reads | table[pass].writes; bound; bound &= bound - 1) ++count;
+    return count;
+}
+
 // Constants that C decides: binding numbers by name, sizes, and the kernels' choice, so that no pass branches
 // on it.
 static size_t write_constants(char *text, size_t capacity, uint32_t kernels, uint32_t scan_blocks)

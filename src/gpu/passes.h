@@ -27,6 +27,8 @@ typedef struct WeirPasses {
 } WeirPasses;
 
 const char *weir_pass_name(WeirPass pass);
+// Storage buffers that a pass binds: WebGPU promises no more than 8.
+uint32_t weir_pass_storage_buffers(WeirPass pass);
 // Makes what the passes of `parameters` need and does not exist yet. Faults go to `report`.
 WeirStatus weir_passes_prepare(WeirPasses *passes, const WeirParameters *parameters, WeirReport *report,
                                WeirMessage *message);

@@ -260,6 +260,15 @@ static void passes_are_timed(void **state)
     weir_gpu_destroy(gpu);
 }
 
+// Phones give no more than WebGPU's least limit.
+static void passes_fit_the_least_limits(void **state)
+{
+    (void)state;
+    for (int pass = 0; pass < WEIR_PASS_TOTAL; ++pass) {
+        assert_in_range(weir_pass_storage_buffers(pass), 2, 8);
+    }
+}
+
 // Shaders without run-time checks give the same bits.
 static void trusted_shaders_change_nothing(void **state)
 {
@@ -305,6 +314,7 @@ int main(void)
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(dispatches_may_be_two_dimensional),
         cmocka_unit_test(passes_are_timed),
+        cmocka_unit_test(passes_fit_the_least_limits),
         cmocka_unit_test(trusted_shaders_change_nothing),
         cmocka_unit_test(simulations_may_end_at_work),
     };

@@ -59,75 +59,96 @@ static void fill(void *data, size_t size, uint32_t first)
     }
 }
 
+// The pass that echoes, and its three buffers: the uniforms and the echo.
+typedef struct Echo {
+    WeirGpu *gpu;
+    uint64_t size[3];
+    WGPUBuffer buffer[3];
+    WGPUBindGroupLayout layout;
+    WGPUBindGroup group;
+    WGPUComputePipeline pipeline;
+} Echo;
+
+static void make_echo(Echo *echo, WeirGpu *gpu)
+{
+    *echo = (Echo){.gpu = gpu, .size = {sizeof(WeirParameters), sizeof(WeirConstants), 16 * FIELDS}};
+    WGPUBindGroupLayoutEntry layout[3] = {0};
+    WGPUBindGroupEntry entries[3] = {0};
+    for (uint32_t n = 0; n < 3; ++n) {
+        bool uniform = n != ECHO_BINDING;
+        WGPUBufferUsage usage = uniform ? WGPUBufferUsage_Uniform : WGPUBufferUsage_Storage;
+        echo->buffer[n] = weir_gpu_create_buffer(
+            gpu, "echo", usage | WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc, echo->size[n]);
+        layout[n] = (WGPUBindGroupLayoutEntry){.binding = n,
+                                               .visibility = WGPUShaderStage_Compute,
+                                               .buffer.type = uniform ? WGPUBufferBindingType_Uniform
+                                                                      : WGPUBufferBindingType_Storage};
+        entries[n] = (WGPUBindGroupEntry){.binding = n, .buffer = echo->buffer[n], .size = echo->size[n]};
+    }
+    echo->layout = wgpuDeviceCreateBindGroupLayout(
+        gpu->device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = layout});
+    echo->group = wgpuDeviceCreateBindGroup(
+        gpu->device, &(WGPUBindGroupDescriptor){.layout = echo->layout, .entryCount = 3, .entries = entries});
+    char *source = make_shader();
+    WeirReport *report = weir_report_create(gpu);
+    echo->pipeline = weir_pass_pipeline(gpu, "echo_fields", "pass echo", source, echo->layout, report);
+    free(source);
+    while (weir_report_pending(report)) weir_gpu_poll(gpu);
+    WeirMessage message = {""};
+    if (weir_report_check(report, &message) != WEIR_OK) fail_msg("%s", message.text);
+    weir_report_destroy(report);
+}
+
+static void free_echo(Echo *echo)
+{
+    wgpuComputePipelineRelease(echo->pipeline);
+    wgpuBindGroupRelease(echo->group);
+    wgpuBindGroupLayoutRelease(echo->layout);
+    for (int n = 0; n < 3; ++n) weir_gpu_destroy_buffer(echo->gpu, echo->buffer[n], echo->size[n]);
+}
+
+// Runs the pass; the readback is ready then.
+static WeirReadback *run_echo(const Echo *echo)
+{
+    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(echo->gpu->device, NULL);
+    WGPUComputePassEncoder pass = wgpuCommandEncoderBeginComputePass(encoder, NULL);
+    wgpuComputePassEncoderSetPipeline(pass, echo->pipeline);
+    wgpuComputePassEncoderSetBindGroup(pass, 0, echo->group, 0, NULL);
+    wgpuComputePassEncoderDispatchWorkgroups(pass, 1, 1, 1);
+    wgpuComputePassEncoderEnd(pass);
+    wgpuComputePassEncoderRelease(pass);
+    WeirReadback *readback = weir_readback_create(echo->gpu, "echo readback", echo->size[ECHO_BINDING]);
+    weir_readback_copy(readback, encoder, echo->buffer[ECHO_BINDING], 0, echo->size[ECHO_BINDING]);
+    weir_gpu_submit(echo->gpu, encoder, "echo");
+    weir_readback_start(readback);
+    while (weir_readback_state(readback) != WEIR_READBACK_READY)
+        assert_int_equal(weir_gpu_poll(echo->gpu), WEIR_OK);
+    return readback;
+}
+
 static void every_field_arrives(void **state)
 {
-    WeirGpu *gpu = *state;
-    WeirReport *report = weir_report_create(gpu);
+    Echo echo;
+    make_echo(&echo, *state);
     WeirParameters parameters;
     WeirConstants constants;
     fill(&parameters, sizeof parameters, 1000);
     fill(&constants, sizeof constants, 2000);
-    uint64_t sizes[] = {sizeof parameters, sizeof constants, 16 * FIELDS};
-    WGPUBuffer buffers[3];
-    WGPUBindGroupLayoutEntry layout_entries[3] = {0};
-    WGPUBindGroupEntry entries[3] = {0};
-    for (uint32_t n = 0; n < 3; ++n) {
-        bool uniform = n != ECHO_BINDING;
-        buffers[n] = weir_gpu_create_buffer(gpu, "echo",
-                                            WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc |
-                                                (uniform ? WGPUBufferUsage_Uniform : WGPUBufferUsage_Storage),
-                                            sizes[n]);
-        layout_entries[n] = (WGPUBindGroupLayoutEntry){
-            .binding = n,
-            .visibility = WGPUShaderStage_Compute,
-            .buffer.type = uniform ? WGPUBufferBindingType_Uniform : WGPUBufferBindingType_Storage};
-        entries[n] = (WGPUBindGroupEntry){.binding = n, .buffer = buffers[n], .size = sizes[n]};
-    }
-    WGPUDevice device = weir_gpu_wgpu_device(gpu);
-    WGPUBindGroupLayout layout = wgpuDeviceCreateBindGroupLayout(
-        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = layout_entries});
-    WGPUBindGroup group = wgpuDeviceCreateBindGroup(
-        device, &(WGPUBindGroupDescriptor){.layout = layout, .entryCount = 3, .entries = entries});
-    char *source = make_shader();
-    WGPUComputePipeline pipeline =
-        weir_pass_pipeline(gpu, "echo_fields", "pass echo", source, layout, report);
-    free(source);
-    WeirMessage message = {""};
-    if (weir_report_check(report, &message) != WEIR_OK) fail_msg("%s", message.text);
-
-    wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(gpu), buffers[0], 0, &parameters, sizeof parameters);
-    wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(gpu), buffers[1], 0, &constants, sizeof constants);
-    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(device, NULL);
-    WGPUComputePassEncoder pass = wgpuCommandEncoderBeginComputePass(encoder, NULL);
-    wgpuComputePassEncoderSetPipeline(pass, pipeline);
-    wgpuComputePassEncoderSetBindGroup(pass, 0, group, 0, NULL);
-    wgpuComputePassEncoderDispatchWorkgroups(pass, 1, 1, 1);
-    wgpuComputePassEncoderEnd(pass);
-    wgpuComputePassEncoderRelease(pass);
-    WeirReadback *readback = weir_readback_create(gpu, "echo readback", sizes[ECHO_BINDING]);
-    weir_readback_copy(readback, encoder, buffers[ECHO_BINDING], 0, sizes[ECHO_BINDING]);
-    weir_gpu_submit(gpu, encoder, "echo");
-    weir_readback_start(readback);
-    while (weir_readback_state(readback) != WEIR_READBACK_READY)
-        assert_int_equal(weir_gpu_poll(gpu), WEIR_OK);
-
-    const uint32_t *echo = weir_readback_data(readback);
-    assert_non_null(echo);
+    wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[0], 0, &parameters, sizeof parameters);
+    wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[1], 0, &constants, sizeof constants);
+    WeirReadback *readback = run_echo(&echo);
+    const uint32_t *seen = weir_readback_data(readback);
+    assert_non_null(seen);
     for (int n = 0; n < FIELDS; ++n) {
-        const char *owner =
-            strcmp(fields[n].owner, "parameters") == 0 ? (char *)&parameters : (char *)&constants;
-        size_t size = fields[n].kind == VECTOR ? 16 : 4;
-        if (memcmp(echo + 4 * n, owner + fields[n].offset, size) != 0)
+        bool first = strcmp(fields[n].owner, "parameters") == 0;
+        const char *written = (first ? (char *)&parameters : (char *)&constants) + fields[n].offset;
+        if (memcmp(seen + 4 * n, written, fields[n].kind == VECTOR ? 16 : 4) != 0)
             fail_msg("%s.%s: C wrote 0x%x, the shader reads 0x%x", fields[n].owner, fields[n].name,
-                     (unsigned)*(const uint32_t *)(owner + fields[n].offset), (unsigned)echo[4 * n]);
+                     (unsigned)*(const uint32_t *)written, (unsigned)seen[4 * n]);
     }
     weir_readback_finish(readback);
     weir_readback_destroy(readback);
-    wgpuComputePipelineRelease(pipeline);
-    wgpuBindGroupRelease(group);
-    wgpuBindGroupLayoutRelease(layout);
-    for (int n = 0; n < 3; ++n) weir_gpu_destroy_buffer(gpu, buffers[n], sizes[n]);
-    weir_report_destroy(report);
+    free_echo(&echo);
 }
 
 int main(void)
