@@ -53,7 +53,7 @@ typedef struct WeirParameterInfo {
     const char *choices; // WEIR_PARAMETER_CHOICE: the names, separated by '|'; NULL otherwise
     WeirParameterKind kind;
     double default_value[3]; // one number, three for a vector, the index for a choice
-    double minimum, maximum; // allowed range, ends included
+    double minimum, maximum; // allowed range, ends included; both 0 for a choice
     bool live;               // true: may change while a simulation runs; false: takes effect at the next reset
 } WeirParameterInfo;
 
@@ -180,7 +180,7 @@ WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool); // NULL: none
 typedef enum WeirField {
     WEIR_FIELD_POSITION,     // x, y per particle, m
     WEIR_FIELD_VELOCITY,     // x, y per particle, m/s
-    WEIR_FIELD_ACCELERATION, // x, y per particle, m/s^2, as the next step will use it
+    WEIR_FIELD_ACCELERATION, // x, y per particle, m/s^2, without the tool's share
     WEIR_FIELD_DENSITY,      // one per particle, kg/m^3
     WEIR_FIELD_PRESSURE,     // one per particle, Pa
 } WeirField;

@@ -9,7 +9,7 @@ void weir_grid_make(WeirConstants *constants, const double domain_min[3], const 
 {
     double width = domain_max[0] - domain_min[0], height = domain_max[1] - domain_min[1];
     double cell = constants->search_radius;
-    double limit = fmax(65536.0, 16.0 * constants->particle_count);
+    double limit = fmin(fmax(65536.0, 16.0 * constants->particle_count), 1073741824.0); // 32-bit indices
     double columns, rows;
     for (;; cell *= 2.0) {
         columns = ceil(width / cell * WEIR_CELLS_PER_RADIUS);

@@ -196,8 +196,9 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     // What was not taken is dropped: a simulation that is too slow must slow down, not fall ever further
     // behind.
     sim->owed = due > sim->max_steps ? 0.0 : sim->owed - steps * dt;
+    uint64_t before = sim->steps;
     WeirStatus status = weir_sim_step(sim, steps);
-    if (status == WEIR_OK) *steps_taken = steps;
+    *steps_taken = (uint32_t)(sim->steps - before);
     return status;
 }
 

@@ -297,6 +297,30 @@ static void refused_calls_change_nothing(void **state)
     weir_scene_destroy(before);
 }
 
+// Messages quote values and cut them; the cut must not leave half a character, or JSON output would refuse
+// it.
+static void messages_are_utf8(void **state)
+{
+    (void)state;
+    WeirScene *scene = weir_scene_create();
+    char text[64] = "";
+    for (int n = 0; n < 15; ++n) strcat(text, "\xe2\x82\xac"); // 3 bytes each: 40 is no whole number of them
+    assert_int_equal(weir_scene_set_string(scene, "method", text), WEIR_ERROR_INPUT);
+    const unsigned char *message = (const unsigned char *)weir_scene_error(scene);
+    int euros = 0, broken = 0;
+    for (; *message; ++message) {
+        if (message[0] == 0xe2 && message[1] == 0x82 && message[2] == 0xac) {
+            ++euros;
+            message += 2;
+        } else if (*message >= 0x80) {
+            ++broken;
+        }
+    }
+    assert_int_equal(euros, 13);
+    assert_int_equal(broken, 0);
+    weir_scene_destroy(scene);
+}
+
 static void too_many_pieces_are_refused(void **state)
 {
     (void)state;
@@ -323,6 +347,7 @@ int main(void)
         cmocka_unit_test(long_texts_are_refused_whole),
         cmocka_unit_test(refused_calls_change_nothing),
         cmocka_unit_test(too_many_pieces_are_refused),
+        cmocka_unit_test(messages_are_utf8),
     };
     return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

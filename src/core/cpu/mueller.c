@@ -218,7 +218,6 @@ static inline void reflect(float low, float high, float restitution, float *x, f
         if (*v > 0.0f) *v = -restitution * *v;
     }
     if (*x < low) *x = low;
-    if (*x > high) *x = high;
 }
 
 static void integrate_chunk(void *context, uint32_t begin, uint32_t end)
