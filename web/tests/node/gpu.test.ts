@@ -19,6 +19,7 @@ after(() => {
 const dam = JSON.parse(readFileSync(join(root, 'scenes/dam_break.json'), 'utf8'));
 const spacing = 0.04;
 Object.assign(dam.parameters, { particle_spacing: spacing, support_radius: 2.5 * spacing });
+dam.fluid[0].velocity = [-1, -2]; // thrown into the corner: pressure and walls act from the first steps on
 
 function start(device?: Gpu): Sim {
   const scene = weir.loadScene(dam);
@@ -47,7 +48,7 @@ test('100 steps follow the C solver', async () => {
   assert.equal(sim.backend, 'gpu');
   assert.equal(sim.particleCount, reference.particleCount);
   assert.deepEqual(await read(sim, Field.position), (reference.read(Field.position) as Float32Array).slice());
-  assert.equal(sim.step(100), undefined);
+  sim.step(100);
   reference.step(100);
   const position = await read(sim, Field.position);
   const off = farthest(position, reference.read(Field.position) as Float32Array);
@@ -57,7 +58,8 @@ test('100 steps follow the C solver', async () => {
   const [found, wanted] = [await diagnose(sim), reference.diagnose(false)];
   assert.equal(found.step, 100);
   assert.equal(found.lostParticles, 0);
-  assert.ok(wanted && Math.abs(found.kineticEnergy / wanted.kineticEnergy - 1) < 1e-3);
+  assert.ok(wanted && wanted.densityErrorMax > 0.005, 'nothing was pressed together: the test shows too little');
+  assert.ok(Math.abs(found.kineticEnergy / wanted.kineticEnergy - 1) < 1e-3);
   sim.destroy();
   reference.destroy();
 });
@@ -78,6 +80,7 @@ test('steps, tool, parameters and reset as on the CPU', async () => {
   const from = await read(sim, Field.position);
   assert.equal(sim.advance(0.002), Math.floor(0.002 / (sim.parameter('time_step')[0] as number) + 1e-6));
   sim.setParameter('gravity', [0, 0]);
+  sim.setState(from, from.map(() => 0)); // at rest
   const [left = 0, bottom = 0] = dam.domain.min as number[];
   sim.setTool(ToolKind.push, left, bottom, 0, 0, 0.5, 50);
   sim.step(20);
