@@ -1,5 +1,5 @@
-// The page's engines, measured in Node the way `weir bench` measures natively: same scenes (apps/cli/bench_scene.c), a
-// warm-up, the median of five batches.
+// The page's engines, measured in Node the way `weir bench` measures natively: the same scenes
+// (apps/cli/bench_scene.c), a warm-up, the median of batches from the scene's start.
 import { readFileSync } from 'node:fs';
 import { cpus } from 'node:os';
 import { benchAllPairs } from '../web/src/all_pairs.ts';
@@ -21,7 +21,8 @@ type Row = {
   frames_per_second: number;
 };
 
-const REPETITIONS = 5;
+const MAX_REPETITIONS = 64;
+const MAX_BATCH = 256; // steps
 const device = `${cpus()[0]?.model.trim() ?? 'CPU'}, Node ${process.version}`;
 
 function rates(particles: number, timeStep: number, seconds: number) {
@@ -54,6 +55,8 @@ function scene(benchCase: Case, count: number, search: string, timeStep: number)
 }
 
 function timeSteps(sim: Sim, steps: number): number {
+  sim.reset();
+  sim.step(1);
   const start = performance.now();
   sim.step(steps);
   return (performance.now() - start) / 1e3;
@@ -61,17 +64,12 @@ function timeSteps(sim: Sim, steps: number): number {
 
 // As measure_step() of apps/cli/bench.c. Seconds per step.
 function measureStep(sim: Sim, budget: number): number {
-  let last = 0;
-  let spent = 0;
-  for (let steps = 1; spent < 0.3 * budget; steps *= 2) {
-    const batch = timeSteps(sim, steps);
-    last = batch / steps;
-    spent += batch;
-    if (batch > 0.1 * budget) break;
+  let steps = 1;
+  for (let batch = timeSteps(sim, steps); batch < 0.1 * budget && steps < MAX_BATCH; batch = timeSteps(sim, steps)) {
+    steps = Math.min(2 * steps, MAX_BATCH);
   }
-  const steps = Math.min(Math.max(Math.floor(budget / REPETITIONS / Math.max(last, 1e-9)), 1), 1e6);
   const times: number[] = [];
-  for (spent = 0; times.length < REPETITIONS && (times.length === 0 || spent < 2 * budget); ) {
+  for (let spent = 0; times.length < MAX_REPETITIONS && (times.length === 0 || spent < budget); ) {
     const batch = timeSteps(sim, steps);
     times.push(batch / steps);
     spent += batch;

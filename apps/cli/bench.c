@@ -11,7 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_ITEMS = 32, REPETITIONS = 5 };
+enum {
+    MAX_ITEMS = 32,
+    MAX_REPETITIONS = 64,
+    MAX_BATCH = 256, // steps; the fluid of a batch is still the scene's start
+};
 
 typedef struct BenchOptions {
     const char *counts, *backends, *search, *threads, *bench_case, *scene;
@@ -127,35 +131,33 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Wall seconds of `steps` steps; negative if one failed.
+// Wall seconds of `steps` steps from the scene's start; negative if something failed. Every batch sees the
+// same fluid, however fast the backend is.
 static double time_steps(WeirSim *sim, uint32_t steps)
 {
+    if (weir_sim_reset(sim) || weir_sim_step(sim, 1) || weir_sim_wait(sim)) return -1.0;
     double start = weir_wall_time();
     if (weir_sim_step(sim, steps) || weir_sim_wait(sim) || weir_sim_poll(sim)) return -1.0;
     return weir_wall_time() - start;
 }
 
-// Median of some batches, after a warm-up that brings caches, clocks and the fluid going. A step that alone
-// takes longer than `budget` is measured once.
+// Seconds per step: the median of some batches, after a warm-up that doubles its steps until a batch takes a
+// tenth of the budget. A step that alone takes longer than the budget is measured once.
 static double measure_step(WeirSim *sim, double budget)
 {
-    double last = 0.0, spent = 0.0, times[REPETITIONS];
-    for (uint32_t steps = 1; spent < 0.3 * budget; steps *= 2) {
-        double batch = time_steps(sim, steps);
-        if (batch < 0.0) return -1.0;
-        last = batch / steps;
-        spent += batch;
-        if (batch > 0.1 * budget) break;
+    uint32_t steps = 1;
+    double batch = time_steps(sim, steps), spent = 0.0, times[MAX_REPETITIONS];
+    while (batch >= 0.0 && batch < 0.1 * budget && steps < MAX_BATCH) {
+        steps = 2 * steps < MAX_BATCH ? 2 * steps : MAX_BATCH;
+        batch = time_steps(sim, steps);
     }
-    uint32_t steps = (uint32_t)fmin(fmax(budget / REPETITIONS / fmax(last, 1e-9), 1.0), 1e6);
     size_t count = 0;
-    spent = 0.0;
-    while (count < REPETITIONS && (count == 0 || spent < 2.0 * budget)) {
-        double batch = time_steps(sim, steps);
-        if (batch < 0.0) return -1.0;
+    while (batch >= 0.0 && count < MAX_REPETITIONS && (count == 0 || spent < budget)) {
+        batch = time_steps(sim, steps);
         times[count++] = batch / steps;
         spent += batch;
     }
+    if (batch < 0.0) return -1.0;
     qsort(times, count, sizeof times[0], compare_numbers);
     return count % 2 ? times[count / 2] : 0.5 * (times[count / 2 - 1] + times[count / 2]);
 }
@@ -356,10 +358,10 @@ const WeirCommand weir_bench_command = {
     .name = "bench",
     .synopsis = "[options]",
     .summary = "measures speed on every backend, for several particle counts",
-    .notes = "A row is the median of five batches of steps after a warm-up. M p-steps/s: millions of "
-             "particles times\n"
-             "steps per wall second. real-time: simulated seconds per wall second. frames/s: at one step per "
-             "frame.",
+    .notes =
+        "A row is the median of batches of at most 256 steps from the scene's start, after a warm-up.\n"
+        "M p-steps/s: millions of particles times steps per wall second. real-time: simulated seconds per\n"
+        "wall second. frames/s: at one step per frame.",
     .options = bench_options,
     .option_count = sizeof bench_options / sizeof bench_options[0],
     .run = bench_command,
