@@ -8,19 +8,17 @@
 void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3])
 {
     double width = domain_max[0] - domain_min[0], height = domain_max[1] - domain_min[1];
-    double cell = constants->search_radius;
-    double limit = fmin(fmax(65536.0, 16.0 * constants->particle_count), 1073741824.0); // 32-bit indices
-    double columns, rows;
-    for (;; cell *= 2.0) {
-        columns = ceil(width / cell * WEIR_CELLS_PER_RADIUS);
-        rows = ceil(height / cell);
-        if (columns * rows <= limit) break;
+    double cell_height = constants->search_radius, cell_width = cell_height / WEIR_CELLS_PER_RADIUS;
+    double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0); // 32-bit indices
+    while (ceil(width / cell_width) * ceil(height / cell_height) > limit) {
+        cell_width *= 2.0;
+        if (cell_width > cell_height) cell_height = cell_width;
     }
-    constants->cell_columns = (uint32_t)fmax(columns, 1.0);
-    constants->cell_rows = (uint32_t)fmax(rows, 1.0);
+    constants->cell_columns = (uint32_t)ceil(width / cell_width);
+    constants->cell_rows = (uint32_t)ceil(height / cell_height);
     constants->cell_count = constants->cell_columns * constants->cell_rows;
-    constants->inverse_cell_width = (float)(WEIR_CELLS_PER_RADIUS / cell);
-    constants->inverse_cell_height = (float)(1.0 / cell);
+    constants->inverse_cell_width = (float)(1.0 / cell_width);
+    constants->inverse_cell_height = (float)(1.0 / cell_height);
 }
 
 void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool)

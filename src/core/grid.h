@@ -13,8 +13,9 @@
 // Cells per search radius along x: finer cells trim the runs (measured: docs/performance.md).
 enum { WEIR_CELLS_PER_RADIUS = 4 };
 
-// Fills cell counts and inverse cell sizes. Cells grow where the domain is so large that they would outnumber
-// the particles by far; the search stays correct, only less selective.
+// Fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would outnumber
+// the particles 4 to 1: memory stays bound to the particles, and the search stays correct, only less
+// selective.
 void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3]);
 
 // Cell column and row of a coordinate, clamped into the grid.
