@@ -52,14 +52,15 @@ test('100 steps follow the C solver', async () => {
   reference.step(100);
   const position = await read(sim, Field.position);
   const off = farthest(position, reference.read(Field.position) as Float32Array);
-  assert.ok(off < 1e-3 * spacing, `positions differ by ${off} m`);
+  // Some five times what SwiftShader's other rounding makes; a viscosity that is 10 % off shows.
+  assert.ok(off < 1e-6, `positions differ by ${off} m`);
   const density = farthest(await read(sim, Field.density), reference.read(Field.density) as Float32Array);
-  assert.ok(density < 0.5, `densities differ by ${density} kg/m^3`);
+  assert.ok(density < 0.006, `densities differ by ${density} kg/m^3`);
   const [found, wanted] = [await diagnose(sim), reference.diagnose(false)];
   assert.equal(found.step, 100);
   assert.equal(found.lostParticles, 0);
   assert.ok(wanted && wanted.densityErrorMax > 0.005, 'nothing was pressed together: the test shows too little');
-  assert.ok(Math.abs(found.kineticEnergy / wanted.kineticEnergy - 1) < 1e-3);
+  assert.ok(Math.abs(found.kineticEnergy / wanted.kineticEnergy - 1) < 1e-6);
   sim.destroy();
   reference.destroy();
 });
