@@ -23,7 +23,16 @@ const webgpu = new WebGpuImports(gpu);
 webgpu.registerCanvas(fakeCanvas());
 webgpu.registerCanvas({ getContext: () => null } as unknown as OffscreenCanvas);
 const module = await WebAssembly.compile(wasmFile('webgpu_calls.wasm'));
-const instance = await WebAssembly.instantiate(module, wasiImports(module, { webgpu: webgpu.functions }));
+
+// The calls on their way to the browser. "Undefined" of C must come as -1, never as its unsigned value.
+const unsignedValues = new Set<string>();
+const watched: Record<string, (...values: number[]) => number> = {};
+for (const [name, call] of Object.entries(webgpu.functions))
+  watched[name] = (...values) => {
+    if (values.some((value) => value === 0xffffffff || value > Number.MAX_SAFE_INTEGER)) unsignedValues.add(name);
+    return (call as (...values: number[]) => number)(...values);
+  };
+const instance = await WebAssembly.instantiate(module, wasiImports(module, { webgpu: watched }));
 const c = instance.exports as unknown as Exports;
 webgpu.attach(c);
 c._initialize();
@@ -56,6 +65,8 @@ for (let index = 0; c.weir_test_calls(index) !== 0; index++) {
     assert.equal(webgpu.liveObjects - before, KEPT[calls] ?? 0, 'handles kept');
   });
 }
+
+test('what C leaves undefined is undefined for the browser', () => assert.deepEqual([...unsignedValues], []));
 
 const layer = join(root, 'src/webgpu_web');
 const sources = readdirSync(layer).filter((name) => name.endsWith('.c'));
