@@ -5,7 +5,7 @@ export type SliderRange = { low: number; high: number; log: boolean; fromZero: b
 
 // The useful part of an allowed range around a usual value.
 export function sliderRange(usual: number, minimum: number, maximum: number): SliderRange {
-  if (maximum <= 1) return { low: minimum, high: maximum, log: false, fromZero: false };
+  if (minimum === 0 && maximum <= 1) return { low: minimum, high: maximum, log: false, fromZero: false };
   const middle = usual > 0 ? usual : 1;
   const low = Math.max(minimum, middle / 20);
   return { low, high: Math.min(maximum, middle * 20), log: true, fromZero: minimum <= 0 };
