@@ -21,7 +21,7 @@
 #include <string.h>
 
 // Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
-enum { CHUNK = 512, CELL_CHUNK = 4096 };
+enum { CHUNK = 512, CELL_CHUNK = 4096, SCAN_BLOCK = 8192 };
 
 enum { PASS_COUNT, PASS_SCAN, PASS_SCATTER, PASS_DENSITY, PASS_FORCES, PASS_INTEGRATE, PASS_TOTAL };
 static const char *const pass_names[PASS_TOTAL] = {"count",   "scan",   "scatter",
@@ -42,6 +42,7 @@ typedef struct MuellerCpu {
     uint32_t *slot;            // sorted place -> place in state
     atomic_uint *cell_count;
     uint32_t *cell_start; // cell_count + 1
+    uint32_t *block_sum;  // of scan
     uint32_t cell_capacity;
     uint64_t steps;
     bool evaluated; // sorted and sums belong to the state, so that a read costs no second evaluation
@@ -50,7 +51,23 @@ typedef struct MuellerCpu {
     double pass_seconds[PASS_TOTAL];
 } MuellerCpu;
 
+static uint32_t scan_blocks(uint32_t cells)
+{
+    return (cells + SCAN_BLOCK - 1) / SCAN_BLOCK;
+}
+
 // ---- Passes ----
+
+// Adds `particles` to a cell and returns how many it held. A plain addition is several times faster than an
+// atomic.
+static inline uint32_t add_to_cell(MuellerCpu *solver, uint32_t cell, uint32_t particles, bool alone)
+{
+    atomic_uint *counter = &solver->cell_count[cell];
+    if (!alone) return atomic_fetch_add_explicit(counter, particles, memory_order_relaxed);
+    uint32_t before = atomic_load_explicit(counter, memory_order_relaxed);
+    atomic_store_explicit(counter, before + particles, memory_order_relaxed);
+    return before;
+}
 
 static void count_chunk(void *context, uint32_t begin, uint32_t end)
 {
@@ -58,16 +75,14 @@ static void count_chunk(void *context, uint32_t begin, uint32_t end)
     const WeirConstants *constants = &solver->constants;
     bool alone = weir_pool_threads(solver->pool) == 1;
     for (uint32_t i = begin; i < end; ++i) {
-        uint32_t cell = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
-                        weir_grid_column(constants, solver->state.x[i]);
-        atomic_uint *counter = &solver->cell_count[cell];
-        solver->cell[i] = cell;
-        if (alone) { // a plain increment is several times faster
-            solver->rank[i] = atomic_load_explicit(counter, memory_order_relaxed);
-            atomic_store_explicit(counter, solver->rank[i] + 1, memory_order_relaxed);
-        } else {
-            solver->rank[i] = atomic_fetch_add_explicit(counter, 1, memory_order_relaxed);
-        }
+        solver->cell[i] = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
+                          weir_grid_column(constants, solver->state.x[i]);
+    }
+    // The last step left most of a cell's particles side by side: they are added together.
+    for (uint32_t i = begin, last; i < end; i = last) {
+        for (last = i + 1; last < end && solver->cell[last] == solver->cell[i];) ++last;
+        uint32_t before = add_to_cell(solver, solver->cell[i], last - i, alone);
+        for (uint32_t k = i; k < last; ++k) solver->rank[k] = before + (k - i);
     }
 }
 
@@ -77,16 +92,46 @@ static void count(MuellerCpu *solver)
     weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, count_chunk, solver);
 }
 
-// Exclusive prefix sum of the counts: where each cell's particles begin. Clears the counts for the next step.
+static void sum_block(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    for (uint32_t block = begin; block < end; ++block) {
+        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK, sum = 0;
+        if (last > solver->constants.cell_count) last = solver->constants.cell_count;
+        for (uint32_t cell = first; cell < last; ++cell) {
+            sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
+        }
+        solver->block_sum[block] = sum;
+    }
+}
+
+static void start_block(void *context, uint32_t begin, uint32_t end)
+{
+    MuellerCpu *solver = context;
+    for (uint32_t block = begin; block < end; ++block) {
+        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK, sum = solver->block_sum[block];
+        if (last > solver->constants.cell_count) last = solver->constants.cell_count;
+        for (uint32_t cell = first; cell < last; ++cell) {
+            solver->cell_start[cell] = sum;
+            sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
+            atomic_store_explicit(&solver->cell_count[cell], 0, memory_order_relaxed);
+        }
+    }
+}
+
+// Exclusive prefix sum of the counts, by blocks of cells: where each cell's particles begin. Clears the
+// counts for the next step.
 static void scan(MuellerCpu *solver)
 {
-    uint32_t sum = 0;
-    for (uint32_t cell = 0; cell < solver->constants.cell_count; ++cell) {
-        solver->cell_start[cell] = sum;
-        sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
-        atomic_store_explicit(&solver->cell_count[cell], 0, memory_order_relaxed);
+    uint32_t blocks = scan_blocks(solver->constants.cell_count), sum = 0;
+    weir_pool_run(solver->pool, blocks, 1, sum_block, solver);
+    for (uint32_t block = 0; block < blocks; ++block) {
+        uint32_t particles = solver->block_sum[block];
+        solver->block_sum[block] = sum;
+        sum += particles;
     }
     solver->cell_start[solver->constants.cell_count] = sum;
+    weir_pool_run(solver->pool, blocks, 1, start_block, solver);
 }
 
 static void place_chunk(void *context, uint32_t begin, uint32_t end)
@@ -319,6 +364,7 @@ static void destroy(WeirSolver *base)
     free(solver->slot);
     free(solver->cell_count);
     free(solver->cell_start);
+    free(solver->block_sum);
     free(solver);
 }
 
@@ -329,16 +375,20 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     if (constants->cell_count > solver->cell_capacity) {
         atomic_uint *cell_count = calloc(constants->cell_count, sizeof *cell_count);
         uint32_t *cell_start = calloc((size_t)constants->cell_count + 1, sizeof *cell_start);
-        if (!cell_count || !cell_start) {
+        uint32_t *block_sum = calloc(scan_blocks(constants->cell_count), sizeof *block_sum);
+        if (!cell_count || !cell_start || !block_sum) {
             free(cell_count);
             free(cell_start);
+            free(block_sum);
             return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells",
                              constants->cell_count);
         }
         free(solver->cell_count);
         free(solver->cell_start);
+        free(solver->block_sum);
         solver->cell_count = cell_count;
         solver->cell_start = cell_start;
+        solver->block_sum = block_sum;
         solver->cell_capacity = constants->cell_count;
     }
     // Constants follow from the parameters, apart from the tool, which acts in `integrate` only.
