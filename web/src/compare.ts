@@ -11,7 +11,7 @@ const counts = (query.get('counts') ?? '1000,5000,10000,32768').split(',').map(N
 const seconds = Number(query.get('seconds')) || 1;
 // Before the race: all solvers must compute the same. Small, because plain JavaScript takes part.
 const checkedCount = 512;
-const checkedSteps = 60;
+const checkedSteps = 40;
 const tolerance = 2e-5; // m; single precision on one side, double on the other
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;

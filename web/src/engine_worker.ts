@@ -168,6 +168,7 @@ export class WorkerEngine implements Engine {
   }
 
   step(count: number): void {
+    this.#patience = longPatienceMs;
     this.#send({ type: 'step', count });
     this.#ask();
   }

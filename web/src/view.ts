@@ -51,9 +51,8 @@ export class Camera {
 export function watchSize(element: HTMLElement, changed: (width: number, height: number, ratio: number) => void): void {
   const report = (entry?: ResizeObserverEntry): void => {
     const box = entry?.devicePixelContentBoxSize?.[0];
-    const width = box?.inlineSize ?? Math.round(element.clientWidth * devicePixelRatio);
-    const height = box?.blockSize ?? Math.round(element.clientHeight * devicePixelRatio);
-    changed(Math.max(width, 1), Math.max(height, 1), width / Math.max(element.clientWidth, 1));
+    const width = pixels(element.clientWidth, box?.inlineSize);
+    changed(width, pixels(element.clientHeight, box?.blockSize), width / Math.max(element.clientWidth, 1));
   };
   const observer = new ResizeObserver((entries) => report(entries[0]));
   try {
@@ -61,5 +60,13 @@ export function watchSize(element: HTMLElement, changed: (width: number, height:
   } catch {
     observer.observe(element); // Safari
   }
+  addEventListener('resize', () => report()); // a window moved to a screen of another density
   report();
+}
+
+// The exact size repairs the rounding of the computed one; it is no use where it knows nothing of the pixel ratio
+// (emulated screens).
+function pixels(cssPixels: number, exact: number | undefined): number {
+  const computed = Math.max(Math.round(cssPixels * devicePixelRatio), 1);
+  return exact !== undefined && Math.abs(exact - computed) <= 2 ? Math.max(exact, 1) : computed;
 }

@@ -1,0 +1,281 @@
+// The page in real Chromium and real Firefox: one body of tests for both.
+import assert from 'node:assert/strict';
+import { mkdirSync } from 'node:fs';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { browsers, changedPixels, launch, Tab, waterPixels } from './browsers.mjs';
+import { serve } from './server.mjs';
+
+const results = fileURLToPath(new URL('../../test-results/', import.meta.url));
+const server = await serve();
+after(() => server.close());
+
+for (const kind of browsers) {
+  describe(kind.name, () => {
+    let browser;
+    before(async () => (browser = await launch(kind)));
+    after(() => browser?.close());
+    const open = (query, options) => Tab.open(browser, `${server.url}?${query}`, options);
+
+    test('starts on WebGPU, keeps its device and moves', async () => {
+      const tab = await open('backend=gpu&particles=2000');
+      await tab.engine('gpu');
+      await tab.frames(3);
+      const first = await tab.pixels();
+      await tab.until('0.1 simulated seconds', () => window.weir.engine.stats.time > 0.1);
+      const later = await tab.pixels();
+      assert.ok(waterPixels(first) > 1000, `water covers ${waterPixels(first)} pixels`);
+      assert.ok(changedPixels(first, later) > 100, `${changedPixels(first, later)} pixels changed`);
+      const alive = await tab.evaluate(() =>
+        Promise.race([window.weir.engine.gpu.nativeDevice.lost.then(() => false), new Promise((r) => setTimeout(r, 200, true))]));
+      assert.equal(alive, true, 'the device is alive');
+      await tab.until('status line', () => /2,\d\d\d particles.*FPS.*\d\.\d\d× real time.*WebGPU/s.test(document.getElementById('status').innerText));
+      const { factor, diagnostics } = await tab.evaluate(() => ({ factor: window.weir.status.realTimeFactor, diagnostics: window.weir.engine.stats.diagnostics }));
+      assert.ok(factor > 0 && factor < 1.5, `real-time factor ${factor}`);
+      assert.ok(diagnostics.kineticEnergy > 0 && diagnostics.lostParticles === 0);
+      await tab.close();
+    });
+
+    test('shows its first frame soon', async (context) => {
+      const tab = await open('backend=cpu');
+      await tab.frames(1);
+      const ms = await tab.evaluate(() => window.weir.firstFrameMs);
+      context.diagnostic(`${kind.name}: first frame of 32,768 particles after ${Math.round(ms)} ms`);
+      assert.ok(ms > 0 && ms < 20_000);
+      await tab.close();
+    });
+
+    for (const backend of ['gpu', 'cpu']) {
+      test(`pointer pushes the fluid (${backend})`, async () => {
+        const tab = await open(`backend=${backend}&particles=1000`);
+        await tab.frames(1);
+        // Without gravity the block of fluid is at rest, so what moves was pushed.
+        await tab.evaluate(() => {
+          window.weir.setParameter('gravity', [0, 0]);
+          window.weir.restart();
+        });
+        await tab.until('rest', () => (window.weir.engine.stats.diagnostics?.kineticEnergy ?? 1) < 1e-3);
+        const place = await tab.evaluate(() => {
+          const { view, pixelRatio, width, height } = window.weir.camera;
+          const { pixelsPerMeter: scale, center } = view;
+          return { x: ((-0.5 - center[0]) * scale + width / 2) / pixelRatio, y: (height / 2 + (0.2 + center[1]) * scale) / pixelRatio };
+        });
+        await tab.page.mouse.move(place.x, place.y);
+        await tab.page.mouse.down();
+        await tab.until('kinetic energy', () => (window.weir.engine.stats.diagnostics?.kineticEnergy ?? 0) > 1);
+        await tab.page.mouse.up();
+        await tab.until('released', () => window.weir.pointer.tool.kind === 0);
+        // Stir to the right: momentum along x.
+        await tab.evaluate(() => window.weir.restart());
+        await tab.until('rest', () => (window.weir.engine.stats.diagnostics?.kineticEnergy ?? 1) < 1e-3);
+        await tab.page.keyboard.down('Shift');
+        await tab.page.mouse.move(place.x - 60, place.y);
+        await tab.page.mouse.down();
+        await tab.page.mouse.move(place.x + 60, place.y, { steps: 12 });
+        await tab.page.mouse.up();
+        await tab.page.keyboard.up('Shift');
+        await tab.until('momentum to the right', () => (window.weir.engine.stats.diagnostics?.momentum[0] ?? 0) > 0.5);
+        await tab.close();
+      });
+    }
+
+    test('slider, scene and colour change without a reload', async () => {
+      const tab = await open('backend=gpu&particles=1000');
+      await tab.frames(2);
+      await tab.evaluate(() => (window.notReloaded = true));
+      const slide = (name, position) => tab.evaluate((label, value) => {
+        const slider = document.querySelector(`input[type=range][data-name="${label}"]`);
+        slider.value = String(value);
+        slider.dispatchEvent(new Event('input', { bubbles: true }));
+      }, name, position);
+      // A live parameter: the run goes on, with the new value in the engine.
+      const before = await tab.evaluate(() => window.weir.engine.stats.steps);
+      await slide('gas constant', 400);
+      const stiffness = await tab.evaluate(() => window.weir.parameter('gas_constant')[0]);
+      assert.ok(stiffness > 900 && stiffness < 1500, `gas constant ${stiffness}`);
+      await tab.frames(2);
+      assert.ok((await tab.evaluate(() => window.weir.engine.stats.steps)) > before, 'no restart');
+      // The particle count: a restart.
+      await slide('particles', 100);
+      const wanted = await tab.evaluate(() => window.weir.particles());
+      const expected = await tab.evaluate(() => 500 * (window.weir.mostParticles() / 500) ** 0.1);
+      assert.ok(Math.abs(wanted / expected - 1) < 0.1, `${wanted} particles asked for, not about ${expected}`);
+      await tab.until('another count', (count) => window.weir.engine.stats.particles === count, wanted);
+      await tab.frames(2);
+      // Colour: the legend follows.
+      await tab.evaluate(() => window.weir.setColorBy(3));
+      assert.match(await tab.evaluate(() => document.getElementById('legend').innerText), /Pressure, kPa/);
+      // A scene, by its key and by the list.
+      const title = await tab.evaluate(() => document.title);
+      await tab.page.keyboard.press('3');
+      await tab.until('another title', (old) => document.title !== old, title);
+      const names = await tab.evaluate(() => window.weir.scenes.map((scene) => scene.name));
+      assert.equal(await tab.evaluate(() => window.weir.sceneName), names[2]);
+      assert.ok(await tab.evaluate(() => window.notReloaded));
+      await tab.close();
+    });
+
+    test('refuses impossible values and scenes, and keeps the last good ones', async () => {
+      const tab = await open('backend=cpu&particles=1000&scene=compare.html');
+      await tab.frames(2);
+      await tab.until('a word about the bad scene', () => /compare\.html: no valid JSON/s.test(document.getElementById('notes').innerText));
+      const before = await tab.evaluate(() => window.weir.parameter('viscosity')[0]);
+      const field = await tab.page.$('input[type=text][aria-label="viscosity"]');
+      await field.evaluate((input) => input.scrollIntoView());
+      await field.evaluate((input) => {
+        input.value = '-5';
+        input.dispatchEvent(new Event('change', { bubbles: true }));
+      });
+      await tab.until('the reason', () => /viscosity.*-5.*0/s.test(document.getElementById('notes').innerText));
+      assert.equal(await tab.evaluate(() => window.weir.parameter('viscosity')[0]), before);
+      assert.equal(Number(await field.evaluate((input) => input.value)), Number(before.toPrecision(4)));
+      const drop = (text) => tab.evaluate((content) => {
+        const data = new DataTransfer();
+        data.items.add(new File([content], 'mine.json', { type: 'application/json' }));
+        document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+      }, text);
+      const count = await tab.evaluate(() => window.weir.engine.stats.particles);
+      await drop('{ "version": 1, ');
+      await tab.until('bad JSON', () => /mine\.json: no valid JSON/.test(document.getElementById('notes').innerText));
+      await drop('{ "version": 1, "titel": "x" }');
+      await tab.until('unknown key', () => /titel/.test(document.getElementById('notes').innerText));
+      assert.equal(await tab.evaluate(() => window.weir.engine.stats.particles), count);
+      await tab.frames(2);
+      await drop('{ "version": 1, "title": "Mine", "parameters": { "particle_spacing": 0.05, "support_radius": 0.15 }, "domain": { "min": [-1, -1], "max": [1, 1] }, "fluid": [{ "ball": { "center": [0, 0], "radius": 0.5 } }] }');
+      await tab.until('my scene', () => document.getElementById('title').textContent === 'Mine');
+      await tab.frames(2);
+      await tab.close();
+    });
+
+    test('keys: pause, step, reset, panel, plot', async () => {
+      const tab = await open('backend=cpu&particles=1000');
+      await tab.frames(3);
+      await tab.page.keyboard.press(' ');
+      await tab.until('pause', () => window.weir.paused);
+      await tab.frames(3);
+      const held = await tab.evaluate(() => window.weir.engine.stats.steps);
+      await tab.frames(3);
+      assert.equal(await tab.evaluate(() => window.weir.engine.stats.steps), held, 'paused');
+      await tab.page.keyboard.press('.');
+      await tab.until('one step', (steps) => window.weir.engine.stats.steps === steps + 1, held);
+      await tab.page.keyboard.press('r');
+      await tab.until('reset', () => window.weir.engine.stats.steps === 0);
+      await tab.page.keyboard.press(' ');
+      await tab.until('going on', () => window.weir.engine.stats.steps > 0);
+      await tab.page.keyboard.press('h');
+      await tab.page.keyboard.press('p');
+      const hidden = await tab.evaluate(() => ['panel', 'plot'].map((id) => getComputedStyle(document.getElementById(id)).display));
+      assert.deepEqual(hidden, ['none', 'none']);
+      await tab.close();
+    });
+
+    test('canvas follows size and pixel ratio', async () => {
+      const tab = await open('backend=cpu&particles=1000');
+      await tab.frames(1);
+      const size = () => tab.evaluate(() => {
+        const canvas = document.querySelector('#stage canvas');
+        return [canvas.width / innerWidth, canvas.height / innerHeight, devicePixelRatio];
+      });
+      assert.deepEqual(await size(), [1, 1, 1]);
+      await tab.page.setViewport({ width: 600, height: 800, deviceScaleFactor: 2 });
+      await tab.until('a larger canvas', () => document.querySelector('#stage canvas').height === 1600);
+      assert.deepEqual(await size(), [2, 2, 2]);
+      await tab.frames(1);
+      const [water] = [waterPixels(await tab.pixels())];
+      assert.ok(water > 500, `water covers ${water} pixels`);
+      await tab.close();
+    });
+
+    test('a lost device is replaced once, then the C solver goes on', async () => {
+      const tab = await open('backend=gpu&particles=1000');
+      await tab.engine('gpu');
+      await tab.until('a snapshot', () => window.weir.engine.snapshot() !== null);
+      const time = await tab.evaluate(() => window.weir.engine.snapshot().time);
+      await tab.evaluate(() => {
+        window.firstEngine = window.weir.engine;
+        window.firstEngine.gpu.nativeDevice.destroy();
+      });
+      await tab.until('another device', () => window.weir.engine?.kind === 'gpu' && window.weir.engine !== window.firstEngine);
+      await tab.frames(2);
+      assert.ok((await tab.evaluate(() => window.weir.engine.stats.time)) >= time, 'goes on from the snapshot');
+      await tab.evaluate(() => window.weir.engine.gpu.nativeDevice.destroy());
+      await tab.engine('worker');
+      await tab.frames(2);
+      await tab.until('the reason', () => /lost.*C solver/s.test(document.getElementById('notes').innerText));
+      assert.ok(waterPixels(await tab.pixels()) > 1000, 'the fluid is drawn');
+      await tab.close();
+    });
+
+    test('a killed worker is replaced once, then this thread goes on', async () => {
+      const tab = await open('backend=cpu&particles=1000');
+      await tab.engine('worker');
+      await tab.frames(5);
+      const time = await tab.evaluate(() => {
+        window.firstWorker = window.weir.engine.worker;
+        window.firstWorker.terminate();
+        return window.weir.engine.stats.time;
+      });
+      await tab.until('another worker', () => window.weir.engine.worker !== window.firstWorker);
+      await tab.frames(2);
+      assert.ok((await tab.evaluate(() => window.weir.engine.stats.time)) >= time, 'goes on from where it was');
+      await tab.evaluate(() => window.weir.engine.worker.terminate());
+      await tab.engine('main');
+      await tab.frames(2);
+      await tab.until('the reason', () => /worker.*C solver/s.test(document.getElementById('notes').innerText));
+      await tab.close();
+    });
+
+    test('without WebGPU the C solver runs, and the page says so', async () => {
+      const tab = await open('particles=2000', {
+        setUp: () => Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined, configurable: true }),
+      });
+      await tab.engine('worker');
+      await tab.frames(2);
+      const first = await tab.pixels();
+      await tab.until('0.1 simulated seconds', () => window.weir.engine.stats.time > 0.1);
+      assert.ok(changedPixels(first, await tab.pixels()) > 100, 'pixels change');
+      assert.match(await tab.evaluate(() => document.getElementById('notes').innerText), /no WebGPU.*C solver/s);
+      await tab.until('status line', () => /C on the CPU/.test(document.getElementById('status').innerText));
+      await tab.close();
+    });
+
+    test('a software adapter leaves the fluid to the C solver', async () => {
+      const tab = await open('particles=2000');
+      await tab.engine('worker');
+      await tab.frames(2);
+      assert.match(await tab.evaluate(() => document.getElementById('notes').innerText), /software.*C solver/s);
+      await tab.close();
+    });
+
+    test('compare.html fills its table', async () => {
+      const tab = await Tab.open(browser, `${server.url}compare.html?counts=200,400&seconds=0.1`);
+      await tab.until('ready', () => !document.getElementById('run').disabled);
+      await tab.page.click('#run');
+      await tab.until('the end', () => window.compare.done);
+      const rows = await tab.evaluate(() => [...document.querySelectorAll('#table tr[data-solver]')].map((row) => [...row.cells].map((cell) => cell.textContent)));
+      assert.equal(rows.length, 10);
+      for (const row of rows) {
+        const numbers = row.slice(2).map(Number.parseFloat);
+        assert.ok(numbers.every((value) => value > 0), row.join(' | '));
+        const [ms, fps] = numbers;
+        assert.ok(Math.abs((ms * fps) / 1000 - 1) < 0.02, `${ms} ms per step is not ${fps} steps per second`);
+      }
+      const agreement = await tab.evaluate(() => window.compare.agreement);
+      assert.ok(agreement < 2e-5, `positions differ by ${agreement} m`);
+      assert.equal(await tab.evaluate(() => document.querySelectorAll('.bar').length), 10);
+      await tab.close();
+    });
+
+    if (kind.name !== 'chromium') return;
+    test('picture of the article scene', async () => {
+      const tab = await open('backend=cpu', { size: { width: 1600, height: 900, deviceScaleFactor: 1 } });
+      await tab.frames(1);
+      await tab.evaluate(() => window.weir.engine.step(900));
+      await tab.until('0.72 simulated seconds', () => window.weir.engine.stats.time > 0.72);
+      await tab.frames(20);
+      mkdirSync(results, { recursive: true });
+      await tab.page.screenshot({ path: `${results}page.png` });
+      await tab.close();
+    });
+  });
+}
