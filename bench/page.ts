@@ -2,7 +2,7 @@
 // (apps/cli/bench_scene.c), a warm-up, the median of batches from the scene's start.
 import { readFileSync } from 'node:fs';
 import { cpus } from 'node:os';
-import { benchAllPairs } from '../web/src/all_pairs.ts';
+import { article, benchAllPairs, blockColumns } from '../web/src/all_pairs.ts';
 import { Weir, type Sim } from '../web/src/weir.ts';
 
 type Case = 'article' | 'n20';
@@ -34,14 +34,8 @@ function rates(particles: number, timeStep: number, seconds: number) {
   };
 }
 
-function blockColumns(count: number, aspect: number): number {
-  let columns = Math.floor(Math.sqrt(aspect * count) + 0.5);
-  while (columns > 1 && count % columns !== 0) --columns;
-  return columns > 1 ? columns : count;
-}
-
 function scene(benchCase: Case, count: number, search: string, timeStep: number): object {
-  const [spacing, radius] = benchCase === 'article' ? [0.007, 0.045] : [0.01, 0.025];
+  const [spacing, radius] = benchCase === 'article' ? [article.particle_spacing, article.support_radius] : [0.01, 0.025];
   const aspect = Math.sqrt(2 * count) * spacing <= 2 ? 0.5 : 2;
   const columns = blockColumns(count, aspect);
   const size = [columns * spacing, (count / columns) * spacing];
@@ -85,7 +79,7 @@ export async function measureWasm(path: string, count: number, seconds: number, 
   const rows: Row[] = [];
   for (const search of benchCase === 'article' ? ['all_pairs', 'grid'] : ['grid']) {
     const probe = weir.loadScene(scene(benchCase, count, search, 0.0001));
-    const timeStep = benchCase === 'article' ? 0.0008 : 0.5 * probe.stableTimeStep;
+    const timeStep = benchCase === 'article' ? article.time_step : 0.5 * probe.stableTimeStep;
     const loaded = weir.loadScene(scene(benchCase, count, search, timeStep));
     const sim = weir.createSim(loaded);
     const step = measureStep(sim, seconds);
@@ -117,6 +111,6 @@ export function measureJavaScript(count: number, seconds: number): Row {
     device,
     search: 'all_pairs',
     threads: 1,
-    ...rates(count, 0.0008, found.msPerStep / 1e3),
+    ...rates(count, article.time_step, found.msPerStep / 1e3),
   };
 }

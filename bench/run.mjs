@@ -80,13 +80,15 @@ function printTable(title, rows) {
 const page = await loadPageModules();
 const wasm = join(root, 'build/wasm/apps/web/weir.wasm');
 const rows = [];
+console.error(`measuring C natively: ${counts.join(', ')} particles ...`);
+const native = weirBench('--counts', counts.join(','));
 for (const count of counts) {
-  console.error(`measuring ${count} particles ...`);
+  console.error(`measuring JavaScript and wasm: ${count} particles ...`);
   const javascript = page.measureJavaScript(count, seconds);
   const found = [
     javascript,
     ...(await page.measureWasm(wasm, count, seconds)),
-    ...weirBench('--counts', String(count)),
+    ...native.filter((row) => row.particles === count),
   ];
   for (const row of found) row.speed_up = javascript.ms_per_step / row.ms_per_step;
   rows.push(...found);
@@ -94,7 +96,7 @@ for (const count of counts) {
 printTable("The tutorial's parameters; speed-up over plain JavaScript", rows);
 writeCsv('article.csv', rows);
 
-console.error('measuring the case of 20 neighbours ...');
+console.error('measuring the case of about 20 neighbours ...');
 const tracked = [...(await page.measureWasm(wasm, 100000, seconds, 'n20')), ...weirBench('--case', 'n20')];
 printTable('About 20 neighbours', tracked);
 writeCsv('n20.csv', tracked);
