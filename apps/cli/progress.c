@@ -2,9 +2,10 @@
 #include "output.h"
 
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-enum { BAR_WIDTH = 24 };
+enum { MIN_BAR = 6, MAX_BAR = 30 };          // columns
 static const double terminal_interval = 0.1; // s
 static const double line_interval = 1.0;     // s
 
@@ -20,6 +21,29 @@ void weir_progress_begin(WeirProgress *progress, bool enabled, uint64_t steps)
     };
 }
 
+static size_t terminal_columns(void)
+{
+    struct winsize size;
+    bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
+}
+
+// The bar takes what the words leave of the line; a line that wraps could not be erased.
+static void draw_bar(double share, char *words)
+{
+    size_t room = terminal_columns() - 1, length = strlen(words);
+    char bar[MAX_BAR + 1] = "";
+    if (length > room) words[room] = '\0';
+    size_t width = room > length + 2 ? room - length - 2 : 0;
+    if (width > MAX_BAR) width = MAX_BAR;
+    for (size_t k = 0; k < width; ++k) bar[k] = (double)k + 0.5 < share * (double)width ? '#' : '.';
+    if (width >= MIN_BAR) {
+        fprintf(stderr, "\r\033[K[%s]%s", bar, words);
+    } else {
+        fprintf(stderr, "\r\033[K%s", words);
+    }
+}
+
 void weir_progress_update(WeirProgress *progress, uint64_t step, double time)
 {
     double now = weir_wall_time();
@@ -28,21 +52,17 @@ void weir_progress_update(WeirProgress *progress, uint64_t step, double time)
     progress->last_print = now;
     double share = progress->steps > 0 ? (double)step / (double)progress->steps : 1.0;
     double spent = now - progress->start;
-    char left[32] = "?";
+    char left[32] = "?", words[256];
     if (step > 0) weir_format_seconds(spent * (1.0 / share - 1.0), left);
+    snprintf(words, sizeof words, " %3.0f %%  step %llu/%llu  time %.4g s  real-time factor %.3g  ETA %s",
+             100.0 * share, (unsigned long long)step, (unsigned long long)progress->steps, time, time / spent,
+             left);
     if (progress->terminal) {
-        char bar[BAR_WIDTH + 1];
-        int filled = (int)(share * BAR_WIDTH);
-        memset(bar, '.', BAR_WIDTH);
-        memset(bar, '#', (size_t)filled);
-        bar[BAR_WIDTH] = '\0';
-        fprintf(stderr, "\r\033[K[%s] %3.0f %%  ", bar, 100.0 * share);
+        draw_bar(share, words);
         progress->drawn = true;
     } else {
-        fprintf(stderr, "%3.0f %%  ", 100.0 * share);
+        fprintf(stderr, "%s\n", words + 1);
     }
-    fprintf(stderr, "step %llu/%llu  time %.4g s  real-time factor %.3g  ETA %s%s", (unsigned long long)step,
-            (unsigned long long)progress->steps, time, time / spent, left, progress->terminal ? "" : "\n");
     fflush(stderr);
 }
 

@@ -1,11 +1,14 @@
 """weir run: summary, JSON, progress, Ctrl-C, backends."""
 
+import fcntl
 import json
 import os
 import pty
 import re
 import signal
+import struct
 import subprocess
+import termios
 import time
 import unittest
 
@@ -188,20 +191,32 @@ class Progress(LongRun):
             self.assertNotIn("\033", line)
         self.assertGreater(times[2] - times[0], 1.5)
 
-    def test_bar_on_a_terminal(self):
+    def on_terminal(self, columns):
+        """What a run writes to a terminal of that width, as a list of states of the line."""
         try:
             ours, theirs = pty.openpty()
         except OSError as error:
             self.skipTest(f"no pseudo terminal here: {error}")
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         process = self.start(stderr=theirs)
         os.close(theirs)
         seen = b""
-        while seen.count(b"ETA") < 3:
+        while seen.count(b"\r") < 4:
             seen += os.read(ours, 4096)
         self.end(process)
         os.close(ours)
-        self.assertRegex(seen.decode(), r"\r\033\[K\[[#.]+\] +\d+ %  step \d+/\d+  time .* real-time factor .* ETA ")
         self.assertNotIn(b"\n", seen)
+        return seen.decode().split("\r\033[K")[1:4]
+
+    def test_bar_on_a_terminal(self):
+        for line in self.on_terminal(120):
+            self.assertRegex(line, r"^\[[#.]+\] +\d+ %  step \d+/\d+  time .* s  real-time factor .*  ETA .+$")
+            self.assertLess(len(line), 120)
+
+    def test_narrow_terminal(self):
+        for line in self.on_terminal(40):
+            self.assertRegex(line, r"^ +\d+ %  step \d+/\d+  time ")
+            self.assertLess(len(line), 40)
 
 
 class Backends(RunTest):
