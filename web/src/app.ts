@@ -50,6 +50,7 @@ export class App implements PanelHost {
   #canvas: HTMLCanvasElement | null = null;
   #engineToken = {};
   #recovering = false;
+  #faultOfNext = '';
   #starting: Promise<void> = Promise.resolve();
   #restartTimer = 0;
   #lastGood: SceneDocument; // that an engine runs
@@ -138,7 +139,10 @@ export class App implements PanelHost {
       this.notes.show('fault', 'error', message, actions);
       return;
     }
-    if (this.#recovering) return;
+    if (this.#recovering) {
+      this.#faultOfNext = message; // the engine that is to take over has failed as well
+      return;
+    }
     this.#recovering = true;
     try {
       await this.#recover(message);
@@ -163,8 +167,10 @@ export class App implements PanelHost {
     for (const attempt of attempts) {
       let engine: Engine | null = null;
       try {
+        this.#faultOfNext = '';
         engine = await attempt();
         await engine.start(this.store.document, from);
+        if (this.#faultOfNext) throw new Error(this.#faultOfNext);
         this.engine = engine;
         this.#started();
         if (engine.kind === 'gpu') this.notes.show('engine', 'info', `${message}. A new device goes on from there.`);

@@ -41,6 +41,7 @@ export class GpuEngine implements Engine {
   #stepOffset = 0;
   #stopped = false;
   #destroyed = false;
+  #leaving = false; // the device is about to go
 
   // `gpu` must be ready.
   constructor(weir: Weir, gpu: Gpu, canvas: HTMLCanvasElement, onFault: FaultHandler) {
@@ -51,7 +52,30 @@ export class GpuEngine implements Engine {
     this.#device = device;
     this.#onFault = onFault;
     this.#renderer = weir.createRenderer(gpu, canvas);
+    this.#guardDestroy(canvas);
     void device.lost.then((info) => this.#fail(`The WebGPU device was lost: ${info.message || info.reason}`));
+  }
+
+  // Firefox (153) never paints again if a device is destroyed while its canvas is on the page: the canvas goes first,
+  // then some frames pass.
+  #guardDestroy(canvas: HTMLCanvasElement): void {
+    const device = this.#device;
+    const destroy = device.destroy.bind(device);
+    device.destroy = () => {
+      device.destroy = destroy;
+      this.#leaving = true;
+      canvas.remove();
+      const later = new Promise<void>((resolve) => {
+        const count = (left: number): void => {
+          if (left === 0) resolve();
+          else requestAnimationFrame(() => count(left - 1));
+        };
+        count(4);
+        setTimeout(resolve, 500); // a hidden page has no animation frames
+      });
+      void later.then(destroy);
+      return undefined;
+    };
   }
 
   get device(): string {
@@ -106,7 +130,7 @@ export class GpuEngine implements Engine {
 
   frame(wallSeconds: number, intervalMs: number, tool: Tool, view: View): void {
     const sim = this.#sim;
-    if (!sim || this.#destroyed) return;
+    if (!sim || this.#destroyed || this.#leaving) return;
     this.#budgetMs = 0.85 * intervalMs;
     this.#owedWall += wallSeconds;
     if (!this.#poll(sim) || this.#inFlight >= framesInFlight) return;
@@ -116,10 +140,10 @@ export class GpuEngine implements Engine {
       const steps = this.#stopped ? 0 : sim.advance(this.#owedWall);
       this.#owedWall = 0;
       this.#submit(sim, view, steps);
+      this.#measure(sim);
     } catch (error) {
       this.#caught(error as Error);
     }
-    this.#measure(sim);
   }
 
   #submit(sim: Sim, view: View, steps: number): void {

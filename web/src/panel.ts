@@ -143,7 +143,7 @@ export class Panel {
     most?: () => number,
   ): void {
     const state = { value: get() };
-    const format = (value: number): string => String(Number(value.toPrecision(4)));
+    const format = (value: number): string => String(Number.isInteger(value) ? value : Number(value.toPrecision(4)));
     const binding = folder.addBinding(state, 'value', { label, format, pointerScale: Math.max(state.value, range.low) / 100 });
     binding.element.title = help;
     binding.element.querySelector('input[type="text"]')?.setAttribute('aria-label', label);

@@ -71,10 +71,14 @@ for (const kind of browsers) {
         await tab.page.keyboard.down('Shift');
         await tab.page.mouse.move(place.x - 60, place.y);
         await tab.page.mouse.down();
-        await tab.page.mouse.move(place.x + 60, place.y, { steps: 12 });
+        const momentum = () => tab.evaluate(() => window.weir.engine.stats.diagnostics?.momentum[0] ?? 0);
+        for (let x = -60; x < 120 && (await momentum()) < 0.5; x += 2) {
+          await tab.page.mouse.move(place.x + x, place.y);
+          await tab.evaluate(() => new Promise((resolve) => setTimeout(resolve, 30)));
+        }
+        assert.ok((await momentum()) >= 0.5, `momentum to the right: ${await momentum()}`);
         await tab.page.mouse.up();
         await tab.page.keyboard.up('Shift');
-        await tab.until('momentum to the right', () => (window.weir.engine.stats.diagnostics?.momentum[0] ?? 0) > 0.5);
         await tab.close();
       });
     }
