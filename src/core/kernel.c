@@ -63,7 +63,7 @@ double weir_stable_time_step(const WeirParameters *parameters, double speed)
 {
     double h = parameters->support_radius, spacing = parameters->particle_spacing;
     // Fewer neighbours, more disorder, smaller steps. Both numbers fitted to measured limits: docs/method.md.
-    double courant = 1.32 * fmax(1.0 - 0.95 * spacing / h, 0.1);
+    double courant = 1.12 * fmax(1.0 - 0.95 * spacing / h, 0.1);
     double sound_speed = sqrt(parameters->gas_constant);
     double kinematic_viscosity = parameters->viscosity / parameters->rest_density;
     // Rates add: sound and flow cross the support, viscosity relaxes the velocity inside it.

@@ -13,14 +13,14 @@ typedef struct Configuration {
 } Configuration;
 
 static const Configuration configurations[] = {
-    {"article, 13 neighbours", 0.0225, 0.045, 2000, 0.1, 1.8},
-    {"article, 20 neighbours", 0.018, 0.045, 2000, 0.1, 1.8},
-    {"article, 50 neighbours", 0.01125, 0.045, 2000, 0.1, 1.8},
-    {"soft", 0.02, 0.05, 200, 0.1, 1.8},
-    {"stiff", 0.02, 0.05, 20000, 0.1, 1.8},
-    {"small", 0.002, 0.005, 2000, 0.1, 1.8},
-    {"viscous", 0.02, 0.05, 2000, 50, 2.4},
-    {"honey", 0.02, 0.05, 2000, 400, 3.5},
+    {"article, 13 neighbours", 0.0225, 0.045, 2000, 0.1, 2.1},
+    {"article, 20 neighbours", 0.018, 0.045, 2000, 0.1, 2.1},
+    {"article, 50 neighbours", 0.01125, 0.045, 2000, 0.1, 2.1},
+    {"soft", 0.02, 0.05, 200, 0.1, 2.1},
+    {"stiff", 0.02, 0.05, 20000, 0.1, 2.1},
+    {"small", 0.002, 0.005, 2000, 0.1, 2.1},
+    {"viscous", 0.02, 0.05, 2000, 50, 2.9},
+    {"honey", 0.02, 0.05, 2000, 400, 4.1},
 };
 enum { CONFIGURATIONS = sizeof configurations / sizeof configurations[0] };
 
@@ -52,7 +52,7 @@ static void holds_below_the_estimate(void **state)
 {
     (void)state;
     for (int n = 0; n < CONFIGURATIONS; ++n) {
-        double energy = run(&configurations[n], 0.9, 600);
+        double energy = run(&configurations[n], 1.0, 600);
         if (!(energy <= 1.001)) fail_msg("%s: energy is %g of the start's", configurations[n].name, energy);
     }
 }
@@ -66,16 +66,19 @@ static void breaks_well_above_the_estimate(void **state)
     }
 }
 
-// The article's own numbers: its time step of 0.0008 s is stable, 0.0012 s blew up.
+// The article's own numbers and block of fluid. Measured: 0.0007 s holds at any viscosity, 0.0008 s only at
+// the article's own, 0.0012 s never.
 static void article_step_is_judged_rightly(void **state)
 {
     (void)state;
     WeirScene *scene = weir_test_scene(0.007, 0.045, -1, 1); // about 130 neighbours
     weir_test_set(scene, "viscosity", 0.1);
     weir_test_set(scene, "gas_constant", 2000);
+    weir_test_gravity(scene, 0, -9.81);
+    weir_test_box(scene, -1, -1, -0.104, 0.792);
     double stable = weir_scene_stable_time_step(scene);
-    assert_true(stable >= 0.0008);
-    assert_true(stable < 0.0012);
+    assert_true(stable >= 0.0006);
+    assert_true(stable <= 0.0007);
     weir_scene_destroy(scene);
 }
 
