@@ -1,5 +1,4 @@
 // A scene's particles on their lattice, and the checks that need to see them all.
-#include "core/kernel.h"
 #include "core/scene.h"
 
 #include <math.h>
@@ -134,38 +133,6 @@ static WeirStatus check_values(WeirScene *scene)
         if (status) return status;
     }
     return check_count(scene);
-}
-
-double weir_scene_largest_speed(const WeirScene *scene)
-{
-    double largest = 0.0;
-    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        const WeirFluid *fluid = &scene->fluid[n];
-        double speed2 = 0.0; // v^2 = v0^2 + 2 g (fall)
-        for (int axis = 0; axis < 2; ++axis) {
-            bool ball = fluid->shape == WEIR_SHAPE_BALL;
-            double low = ball ? fluid->center[axis] - fluid->radius : fluid->min[axis];
-            double high = ball ? fluid->center[axis] + fluid->radius : fluid->max[axis];
-            double gravity = scene->parameters.gravity[axis];
-            double fall = gravity < 0.0 ? high - scene->domain_min[axis] : scene->domain_max[axis] - low;
-            speed2 += fluid->velocity[axis] * fluid->velocity[axis] + 2.0 * fabs(gravity) * fmax(fall, 0.0);
-        }
-        largest = fmax(largest, sqrt(speed2));
-    }
-    return largest;
-}
-
-void weir_scene_advise(WeirScene *scene)
-{
-    double stable = weir_scene_stable_time_step(scene);
-    scene->warning.text[0] = '\0';
-    if (scene->parameters.time_step > stable) {
-        weir_fail(
-            &scene->warning, WEIR_OK,
-            "parameters.time_step: %g s is above the largest stable step, about %.2g s for these parameters; "
-            "the fluid may blow up. Use %.2g s, or lower gas_constant",
-            scene->parameters.time_step, stable, stable);
-    }
 }
 
 // Does particle `i` of one piece lie on a site of piece `other`? Lattices may be shifted against each other,

@@ -1,6 +1,5 @@
 // Scenes by calls: life cycle, getters and the checks of a scene as a whole. Values by path: scene_path.c.
 #include "core/scene.h"
-#include "core/kernel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,11 +59,6 @@ void weir_scene_domain(const WeirScene *scene, double min[3], double max[3])
 {
     memcpy(min, scene->domain_min, sizeof scene->domain_min);
     memcpy(max, scene->domain_max, sizeof scene->domain_max);
-}
-
-double weir_scene_stable_time_step(const WeirScene *scene)
-{
-    return weir_stable_time_step(&scene->parameters, weir_scene_largest_speed(scene));
 }
 
 WeirStatus weir_scene_get_parameter(const WeirScene *scene, const char *name, double values[3])

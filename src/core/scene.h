@@ -41,6 +41,3 @@ WeirStatus weir_scene_make_particles(WeirScene *scene, WeirParticles *particles)
 void weir_particles_free(WeirParticles *particles);
 // Refreshes the scene's warning: a time step above the stable one.
 void weir_scene_advise(WeirScene *scene);
-// Largest speed that the fluid can reach, m/s: its own at the start and the fall to the domain's lowest
-// point.
-double weir_scene_largest_speed(const WeirScene *scene);
