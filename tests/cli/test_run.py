@@ -250,7 +250,11 @@ class Scenes(RunTest):
         for path in scenes:
             with self.subTest(scene=path.name):
                 output, errors = self.weir("run", path, "--backend", "cpu", "--steps", 3, "--json", "--quiet")
-                self.assertEqual(errors, "")
+                # The tutorial's own time step is kept, though it may be above what Weir calls stable.
+                if path.name == "article.json" and errors:
+                    self.assertRegex(errors, r"^weir run: warning: .*article.json: parameters.time_step: 0.0008 s .*\n$")
+                else:
+                    self.assertEqual(errors, "")
                 self.assertEqual(json.loads(output)["lost_particles"], 0)
 
     def test_article_has_the_articles_numbers(self):
