@@ -8,10 +8,12 @@ const root = fileURLToPath(new URL('.', import.meta.url));
 const sceneFolder = resolve(root, '../scenes');
 const wasmFile = process.env['WEIR_WASM'] ?? resolve(root, '../build/wasm/apps/web/weir.wasm');
 
+const firstScene = 'water.json'; // what the page opens with
+
 const sceneFiles = (): string[] =>
   readdirSync(sceneFolder)
     .filter((name) => name.endsWith('.json'))
-    .sort();
+    .sort((a, b) => Number(b === firstScene) - Number(a === firstScene) || (a < b ? -1 : 1));
 
 // [{ name, title }], in the order of the keys 1 to 9.
 function sceneIndex(): string {

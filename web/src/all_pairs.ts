@@ -48,7 +48,9 @@ export function benchBlock(count: number): Block {
 }
 
 // The same block as a scene document of the engine.
-export function benchScene(count: number, search: 'grid' | 'all_pairs'): Record<string, unknown> {
+export function benchScene(
+  count: number, search: 'grid' | 'all_pairs', viscosity = article.viscosity,
+): Record<string, unknown> {
   const { columns, rows, min, max } = benchBlock(count);
   const spacing = article.particle_spacing;
   const corner = [min[0] + columns * spacing, min[1] + rows * spacing];
@@ -57,7 +59,7 @@ export function benchScene(count: number, search: 'grid' | 'all_pairs'): Record<
     title: `${count} particles`,
     dimension: 2,
     method: 'mueller',
-    parameters: { ...article, search },
+    parameters: { ...article, viscosity, search },
     domain: { min, max },
     fluid: [{ box: { min, max: corner } }],
   };
@@ -81,8 +83,10 @@ export class AllPairsFluid {
   readonly particles: Particle[] = [];
   readonly #mass = calibratedMass();
   readonly #block: Block;
+  readonly #viscosity: number;
 
-  constructor(count: number) {
+  constructor(count: number, viscosity = article.viscosity) {
+    this.#viscosity = viscosity;
     this.#block = benchBlock(count);
     const { columns, rows, min } = this.#block;
     const spacing = article.particle_spacing;
@@ -139,7 +143,7 @@ export class AllPairsFluid {
         }
       }
       const pressureScale = this.#mass * gradientFactor;
-      const viscosityScale = (this.#mass * article.viscosity * laplacianFactor) / i.density;
+      const viscosityScale = (this.#mass * this.#viscosity * laplacianFactor) / i.density;
       i.ax = pressureScale * pressureX + viscosityScale * viscosityX + article.gravity[0];
       i.ay = pressureScale * pressureY + viscosityScale * viscosityY + article.gravity[1];
     }

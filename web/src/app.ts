@@ -23,7 +23,8 @@ export type AppOptions = {
 
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
 const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
-const panelWidth = 304;
+const panelWidth = 304; // CSS pixels
+const headingWidth = 330;
 
 const element = (id: string): HTMLElement => document.getElementById(id) as HTMLElement;
 
@@ -360,9 +361,15 @@ export class App implements PanelHost {
   // ---- Window ----
 
   #fit(): void {
+    const { camera } = this;
     const narrow = innerWidth < 760;
     const right = this.#panelShown && !narrow ? panelWidth + 20 : 20;
-    this.camera.fit({ left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 });
+    const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 };
+    camera.fit(insets);
+    // A wide domain goes below the heading's words, a tall one beside them.
+    const heading = element('plot').offsetTop + element('heading').offsetTop;
+    const leftEdge = camera.toClientX(camera.domain.min[0] ?? 0);
+    if (!narrow && leftEdge < headingWidth) camera.fit({ ...insets, top: heading });
   }
 
   #listen(): void {

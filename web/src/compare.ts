@@ -12,6 +12,7 @@ const seconds = Number(query.get('seconds')) || 1;
 // Before the race: all solvers must compute the same. Small, because plain JavaScript takes part.
 const checkedCount = 512;
 const checkedSteps = 40;
+const checkedViscosity = 50; // Pa s: enough to be seen in the positions
 const tolerance = 2e-5; // m; single precision on one side, double on the other
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
@@ -69,7 +70,7 @@ async function checkAgreement(bench: Bench, list: Solver[]): Promise<void> {
   let worst = 0;
   for (const solver of list) {
     say(`Checking that all compute the same: ${solver.label}`);
-    const positions = await bench.positions(solver, checkedCount, checkedSteps);
+    const positions = await bench.positions(solver, checkedCount, checkedSteps, checkedViscosity);
     reference ??= positions;
     positions.forEach((value, k) => (worst = Math.max(worst, Math.abs(value - (reference?.[k] ?? NaN)))));
   }

@@ -4,7 +4,7 @@ import type { Solver } from './compare_rows.ts';
 import type { Done, Job } from './compare_worker.ts';
 import { Field, Status, WeirError, type Gpu, type Sim, type Weir } from './weir.ts';
 
-type Task = { task: 'measure'; seconds: number } | { task: 'positions'; steps: number };
+type Task = { task: 'measure'; seconds: number } | { task: 'positions'; steps: number; viscosity: number };
 
 export class Bench {
   readonly #weir: Weir;
@@ -34,9 +34,9 @@ export class Bench {
     throw new Error('error' in done ? done.error : 'no answer');
   }
 
-  async positions(solver: Solver, count: number, steps: number): Promise<Float32Array> {
-    if (solver.gpu) return this.#withGpuSim(solver, count, (sim) => this.#readGpu(sim, steps));
-    const done = await this.#inWorker(solver, count, { task: 'positions', steps });
+  async positions(solver: Solver, count: number, steps: number, viscosity: number): Promise<Float32Array> {
+    if (solver.gpu) return this.#withGpuSim(solver, count, (sim) => this.#readGpu(sim, steps), viscosity);
+    const done = await this.#inWorker(solver, count, { task: 'positions', steps, viscosity });
     if ('positions' in done) return done.positions;
     throw new Error('error' in done ? done.error : 'no answer');
   }
@@ -63,9 +63,12 @@ export class Bench {
     });
   }
 
-  async #withGpuSim<T>(solver: Solver, count: number, use: (sim: Sim) => Promise<T>): Promise<T> {
+  async #withGpuSim<T>(
+    solver: Solver, count: number, use: (sim: Sim) => Promise<T>, viscosity?: number,
+  ): Promise<T> {
     if (!this.#gpu) throw new Error('no WebGPU');
-    const scene = this.#weir.loadScene(benchScene(count, solver.id === 'gpu_grid' ? 'grid' : 'all_pairs'));
+    const search = solver.id === 'gpu_grid' ? 'grid' : 'all_pairs';
+    const scene = this.#weir.loadScene(benchScene(count, search, viscosity));
     const sim = this.#weir.createSim(scene, { gpu: this.#gpu });
     try {
       return await use(sim);

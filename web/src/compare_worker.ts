@@ -5,7 +5,7 @@ import { Field, Weir, type Sim } from './weir.ts';
 
 export type Job = { module: WebAssembly.Module; solver: SolverId; count: number } & (
   | { task: 'measure'; seconds: number }
-  | { task: 'positions'; steps: number }
+  | { task: 'positions'; steps: number; viscosity: number }
 );
 export type Done = { measured: Measured } | { positions: Float32Array } | { error: string };
 
@@ -13,7 +13,8 @@ let engine: Promise<Weir> | null = null;
 
 async function withSim<T>(job: Job, use: (sim: Sim) => T): Promise<T> {
   const weir = await (engine ??= Weir.load(job.module, { gpu: null }));
-  const scene = weir.loadScene(benchScene(job.count, job.solver === 'c_grid' ? 'grid' : 'all_pairs'));
+  const search = job.solver === 'c_grid' ? 'grid' : 'all_pairs';
+  const scene = weir.loadScene(benchScene(job.count, search, job.task === 'positions' ? job.viscosity : undefined));
   const sim = weir.createSim(scene);
   try {
     return use(sim);
@@ -29,7 +30,7 @@ async function run(job: Job): Promise<Done> {
     return { measured: await withSim(job, (sim) => measureSteps((steps) => sim.step(steps), job.seconds)) };
   }
   if (job.solver === 'javascript') {
-    const fluid = new AllPairsFluid(job.count);
+    const fluid = new AllPairsFluid(job.count, job.viscosity);
     for (let n = 0; n < job.steps; n++) fluid.step();
     return { positions: fluid.positions() };
   }

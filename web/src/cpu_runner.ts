@@ -87,7 +87,6 @@ export class CpuRunner {
     if (position) values.set(position, 0);
     const velocity = sim.read(Field.velocity);
     if (velocity) values.set(velocity, 2 * count);
-    if (colorBy === ColorBy.speed) return;
     const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
     if (scalar) values.set(scalar, 4 * count);
   }

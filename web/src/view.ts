@@ -38,6 +38,11 @@ export class Camera {
     this.view.center[1] = (y0 + y1) / 2 + ((top + bottom) / 2 - this.height / 2) / scale;
   }
 
+  // Metres to CSS pixels of the window.
+  toClientX(x: number): number {
+    return ((x - this.view.center[0]) * this.view.pixelsPerMeter + this.width / 2) / this.pixelRatio;
+  }
+
   // CSS pixels of the window to metres.
   toX(clientX: number): number {
     return this.view.center[0] + (clientX * this.pixelRatio - this.width / 2) / this.view.pixelsPerMeter;
