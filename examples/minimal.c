@@ -14,7 +14,8 @@ int main(void)
     WeirStatus status = weir_sim_diagnose(sim, true, &now);
     if (status == WEIR_OK) status = weir_sim_status(sim);
     printf("%s\n%u particles, %.3f s, %.1f J in motion, density error %.2f %%\n", weir_sim_device(sim),
-           weir_sim_particle_count(sim), weir_sim_time(sim), now.kinetic_energy, 100.0 * now.density_error_mean);
+           weir_sim_particle_count(sim), weir_sim_time(sim), now.kinetic_energy,
+           100.0 * now.density_error_mean);
     if (status != WEIR_OK) printf("stopped: %s\n", weir_sim_error(sim));
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);

@@ -54,7 +54,7 @@ typedef struct WeirParameterInfo {
     WeirParameterKind kind;
     double default_value[3]; // one number, three for a vector, the index for a choice
     double minimum, maximum; // allowed range, ends included; both 0 for a choice
-    bool live;               // true: may change while a simulation runs; false: takes effect at the next reset
+    bool live; // true: may change while a simulation runs; false: takes effect at the next reset
 } WeirParameterInfo;
 
 // Number of parameters in the list.
@@ -135,14 +135,14 @@ void weir_sim_destroy(WeirSim *sim); // NULL is allowed
 
 // WEIR_OK while it can go on, WEIR_PENDING while it starts, else the error that stopped it.
 WeirStatus weir_sim_status(const WeirSim *sim);
-const char *weir_sim_error(const WeirSim *sim);     // message of the last call that failed; "" if none
-const char *weir_sim_warning(const WeirSim *sim);   // advice, "" if none
-const char *weir_sim_backend(const WeirSim *sim);   // "cpu" or "gpu"
-const char *weir_sim_device(const WeirSim *sim);    // "CPU, 2 threads, AVX2" or the adapter's name
-uint32_t weir_sim_threads(const WeirSim *sim);      // 0 on the GPU
+const char *weir_sim_error(const WeirSim *sim);   // message of the last call that failed; "" if none
+const char *weir_sim_warning(const WeirSim *sim); // advice, "" if none
+const char *weir_sim_backend(const WeirSim *sim); // "cpu" or "gpu"
+const char *weir_sim_device(const WeirSim *sim);  // "CPU, 2 threads, AVX2" or the adapter's name
+uint32_t weir_sim_threads(const WeirSim *sim);    // 0 on the GPU
 uint32_t weir_sim_particle_count(const WeirSim *sim);
-uint64_t weir_sim_step_count(const WeirSim *sim);   // steps since the last reset
-double weir_sim_time(const WeirSim *sim);           // simulated seconds since the last reset
+uint64_t weir_sim_step_count(const WeirSim *sim);    // steps since the last reset
+double weir_sim_time(const WeirSim *sim);            // simulated seconds since the last reset
 const WeirScene *weir_sim_scene(const WeirSim *sim); // as it runs now, changed parameters included
 
 // Takes `steps` time steps. On the GPU they are queued; weir_sim_poll() learns of faults.

@@ -17,9 +17,9 @@ extern "C" {
 typedef struct WeirGpu WeirGpu;
 
 typedef struct WeirGpuOptions {
-    bool low_power;        // prefer the integrated adapter
-    bool no_timestamps;    // do not measure passes
-    bool trusted_shaders;  // native only: no run-time bounds checks in WGSL (4-18 % faster)
+    bool low_power;       // prefer the integrated adapter
+    bool no_timestamps;   // do not measure passes
+    bool trusted_shaders; // native only: no run-time bounds checks in WGSL (4-18 % faster)
 } WeirGpuOptions;
 
 // Starts to look for an adapter and a device. `options` NULL: all defaults. NULL only if memory runs out.

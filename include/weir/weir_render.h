@@ -37,7 +37,8 @@ void weir_renderer_destroy(WeirRenderer *renderer); // NULL is allowed
 // run on the renderer's device.
 WeirStatus weir_renderer_draw(WeirRenderer *renderer, WeirSim *sim, const WeirView *view, void *target,
                               uint32_t width, uint32_t height);
-const char *weir_renderer_error(const WeirRenderer *renderer); // message of the last call that failed; "" if none
+// Message of the last call that failed; "" if none.
+const char *weir_renderer_error(const WeirRenderer *renderer);
 // sRGB bytes of the colour map at `t` in 0..1, the same as the shader's: for legends and the CPU fallback.
 void weir_color_map(WeirColorBy color_by, float t, uint8_t rgb[3]);
 
