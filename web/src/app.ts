@@ -367,7 +367,8 @@ export class App implements PanelHost {
     const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 };
     camera.fit(insets);
     // A wide domain goes below the heading's words, a tall one beside them.
-    const heading = element('plot').offsetTop + element('heading').offsetTop;
+    const keys = element('keys');
+    const heading = element('heading').offsetTop + keys.offsetTop + keys.offsetHeight + 10;
     const leftEdge = camera.toClientX(camera.domain.min[0] ?? 0);
     if (!narrow && leftEdge < headingWidth) camera.fit({ ...insets, top: heading });
   }

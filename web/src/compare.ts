@@ -13,7 +13,7 @@ const seconds = Number(query.get('seconds')) || 1;
 const checkedCount = 512;
 const checkedSteps = 40;
 const checkedViscosity = 50; // Pa s: enough to be seen in the positions
-const tolerance = 2e-5; // m; single precision on one side, double on the other
+const tolerance = 5e-6; // m; single precision on one side, double on the other
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const results: Result[] = [];

@@ -15,13 +15,19 @@ export type EngineSetup = {
   onFault: FaultHandler;
 };
 
+const answerMs = 10_000;
+
 const words = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+// A driver that hangs must not leave the page empty.
+const noAnswer = (): Promise<never> =>
+  new Promise((_, reject) => setTimeout(() => reject(new Error('WebGPU gives no device.')), answerMs));
 
 export async function startGpu(setup: EngineSetup, allowSoftware: boolean): Promise<GpuEngine> {
   if (!navigator.gpu) throw new Error('This browser has no WebGPU.');
   const gpu = setup.weir.createGpu();
   try {
-    await gpu.ready();
+    await Promise.race([gpu.ready(), noAnswer()]);
     if (gpu.isSoftware && !allowSoftware) {
       throw new Error(`${gpu.device} is a software adapter, far slower than Weir's C solver.`);
     }

@@ -266,7 +266,7 @@ for (const kind of browsers) {
         assert.ok(Math.abs((ms * fps) / 1000 - 1) < 0.02, `${ms} ms per step is not ${fps} steps per second`);
       }
       const agreement = await tab.evaluate(() => window.compare.agreement);
-      assert.ok(agreement < 2e-5, `positions differ by ${agreement} m`);
+      assert.ok(agreement < 5e-6, `positions differ by ${agreement} m`);
       assert.equal(await tab.evaluate(() => document.querySelectorAll('.bar').length), 10);
       await tab.close();
     });
