@@ -12,6 +12,22 @@ const snapshotMs = 1000;
 const passTimesMs = 500;
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
 
+// Firefox (153) never paints again if a device, or a canvas's configuration, goes while that canvas is on the page: the
+// canvas is taken away first, then some frames pass.
+function afterFrames(run: () => void): void {
+  let waiting = true;
+  const once = (): void => {
+    if (waiting) run();
+    waiting = false;
+  };
+  const count = (left: number): void => {
+    if (left === 0) once();
+    else requestAnimationFrame(() => count(left - 1));
+  };
+  count(4);
+  setTimeout(once, 500); // a hidden page has no animation frames
+}
+
 export class GpuEngine implements Engine {
   readonly kind = 'gpu';
   readonly stats: EngineStats = newStats();
@@ -19,6 +35,7 @@ export class GpuEngine implements Engine {
   readonly #weir: Weir;
   readonly #device: GPUDevice;
   readonly #renderer: Renderer;
+  readonly #canvas: HTMLCanvasElement;
   readonly #onFault: FaultHandler;
   readonly #pace = new Pace();
   #sim: Sim | null = null;
@@ -52,28 +69,20 @@ export class GpuEngine implements Engine {
     this.#device = device;
     this.#onFault = onFault;
     this.#renderer = weir.createRenderer(gpu, canvas);
-    this.#guardDestroy(canvas);
+    this.#canvas = canvas;
+    this.#guardDestroy();
     void device.lost.then((info) => this.#fail(`The WebGPU device was lost: ${info.message || info.reason}`));
   }
 
-  // Firefox (153) never paints again if a device is destroyed while its canvas is on the page: the canvas goes first,
-  // then some frames pass.
-  #guardDestroy(canvas: HTMLCanvasElement): void {
+  // Whoever destroys the device: the canvas goes first.
+  #guardDestroy(): void {
     const device = this.#device;
     const destroy = device.destroy.bind(device);
     device.destroy = () => {
       device.destroy = destroy;
       this.#leaving = true;
-      canvas.remove();
-      const later = new Promise<void>((resolve) => {
-        const count = (left: number): void => {
-          if (left === 0) resolve();
-          else requestAnimationFrame(() => count(left - 1));
-        };
-        count(4);
-        setTimeout(resolve, 500); // a hidden page has no animation frames
-      });
-      void later.then(destroy);
+      this.#canvas.remove();
+      afterFrames(destroy);
       return undefined;
     };
   }
@@ -276,9 +285,12 @@ export class GpuEngine implements Engine {
   }
   destroy(): void {
     this.#destroyed = true;
-    this.#sim?.destroy();
-    this.#sim = null;
-    this.#renderer.destroy();
-    this.gpu.destroy();
+    this.#canvas.remove();
+    afterFrames(() => {
+      this.#sim?.destroy();
+      this.#sim = null;
+      this.#renderer.destroy();
+      this.gpu.destroy();
+    });
   }
 }
