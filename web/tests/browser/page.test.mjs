@@ -294,7 +294,7 @@ for (const kind of browsers) {
       }
       await tab.frames(10);
       mkdirSync(results, { recursive: true });
-      await tab.page.screenshot({ path: `${results}page.png` });
+      await tab.page.screenshot({ path: `${results}page.webp`, type: 'webp', quality: 88 });
       await tab.close();
     });
   });
