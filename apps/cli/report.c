@@ -19,7 +19,7 @@ static double real_time_factor(const WeirReport *report)
 
 static void print_diagnostics(const WeirDiagnostics *found)
 {
-    printf("neighbours     %.1f on average\n", found->mean_neighbors);
+    if (found->mean_neighbors >= 0.0) printf("neighbours     %.1f on average\n", found->mean_neighbors);
     printf("density error  %.3g %% on average, %.3g %% at most\n", 100.0 * found->density_error_mean,
            100.0 * found->density_error_max);
     printf("energy         %.6g J kinetic, %.6g J potential (per metre of depth)\n", found->kinetic_energy,
@@ -74,7 +74,9 @@ static void add_diagnostics(json_t *object, const WeirDiagnostics *found, uint32
         json_array_append_new(momentum, weir_json_number(found->momentum[axis]));
     }
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)found->state_hash);
-    json_object_set_new(object, "mean_neighbors", weir_json_number(found->mean_neighbors));
+    bool counted = found->mean_neighbors >= 0.0;
+    json_object_set_new(object, "mean_neighbors",
+                        counted ? weir_json_number(found->mean_neighbors) : json_null());
     json_object_set_new(object, "density_error_mean", weir_json_number(found->density_error_mean));
     json_object_set_new(object, "density_error_max", weir_json_number(found->density_error_max));
     json_object_set_new(object, "kinetic_energy", weir_json_number(found->kinetic_energy));

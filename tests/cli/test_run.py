@@ -112,6 +112,7 @@ class Json(RunTest):
         found = self.run_json(path, "--backend", "cpu", "--steps", 1000, status=1)
         self.assertEqual(found["outcome"], "failed")
         self.assertRegex(found["error"], r"step \d+: the fluid blew up")
+        self.assertIsNone(found["mean_neighbors"])  # not counted in a heap of particles, and not -1
 
 
 class Words(RunTest):
