@@ -59,8 +59,10 @@ async function main(): Promise<void> {
     particles: Number(query.get('particles')) || 0,
   });
   window.weir = app;
-  const color = colorNames[query.get('color') ?? 'speed'];
+  const wantedColor = query.get('color') ?? 'speed';
+  const color = colorNames[wantedColor.replaceAll(/[-_+]/g, ' ')];
   if (color !== undefined) app.setColorBy(color);
+  else app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
   if (trouble) app.notes.toast('error', trouble);
   addEventListener('error', (event) => app.notes.toast('error', event.message));
   addEventListener('unhandledrejection', (event) => app.notes.toast('error', String(event.reason)));

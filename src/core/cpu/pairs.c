@@ -132,14 +132,17 @@ static inline __attribute__((always_inline)) Force sum_forces(const WeirPairData
     WeirLanes xi = weir_lanes_load(x + begin), yi = weir_lanes_load(y + begin);
     WeirLanes vxi = weir_lanes_load(vx + begin), vyi = weir_lanes_load(vy + begin);
     WeirLanes term_i = weir_lanes_load(term + begin);
-    WeirLanes h = weir_lanes_fill(data->parameters->support_radius), zero = {0};
+    float support = data->parameters->support_radius;
+    WeirLanes h = weir_lanes_fill(support), support2 = weir_lanes_fill(support * support), zero = {0};
     WeirLanes tiny = weir_lanes_fill(1e-24f); // m^2: keeps r = 0 from a division by zero; the force is 0 then
     Force force = {{0}, {0}, {0}, {0}};
     for (uint32_t row = group->first_row; row <= group->last_row; ++row) {
         Run run = candidate_run(data, group, row);
         for (uint32_t j = run.begin; j < run.end; ++j) {
             WeirLanes dx = xi - x[j], dy = yi - y[j];
-            WeirLanes r = weir_lanes_sqrt(weir_lanes_max(dx * dx + dy * dy, tiny));
+            WeirLanes r2 = dx * dx + dy * dy;
+            if (!weir_lanes_any_below(r2, support2)) continue;
+            WeirLanes r = weir_lanes_sqrt(weir_lanes_max(r2, tiny));
             WeirLanes q = weir_lanes_max(h - r, zero);
             WeirLanes pressure = (term_i + term[j]) * (q * q / r);
             WeirLanes viscosity = q * inverse_density[j];

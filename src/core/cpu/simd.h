@@ -3,6 +3,7 @@
 // between targets.
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -51,6 +52,10 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm512_max_ps((__m512)a, (__m512)b);
 }
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0;
+}
 #elif defined(__AVX2__)
 #include <immintrin.h>
 static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
@@ -60,6 +65,10 @@ static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm256_max_ps((__m256)a, (__m256)b);
+}
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)) != 0;
 }
 #elif defined(__SSE2__)
 #include <emmintrin.h>
@@ -71,6 +80,10 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm_max_ps((__m128)a, (__m128)b);
 }
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    return _mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b)) != 0;
+}
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
@@ -80,6 +93,10 @@ static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    return wasm_v128_any_true(wasm_f32x4_lt((v128_t)a, (v128_t)b));
 }
 #else
 #include <math.h>
@@ -93,5 +110,12 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     WeirMask greater = (WeirMask)(a > b);
     return (WeirLanes)((greater & (WeirMask)a) | (~greater & (WeirMask)b));
+}
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    WeirMask below = (WeirMask)(a < b);
+    int32_t any = 0;
+    for (int lane = 0; lane < WEIR_LANES; ++lane) any |= below[lane];
+    return any != 0;
 }
 #endif
