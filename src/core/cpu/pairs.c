@@ -141,7 +141,7 @@ static inline __attribute__((always_inline)) Force sum_forces(const WeirPairData
         for (uint32_t j = run.begin; j < run.end; ++j) {
             WeirLanes dx = xi - x[j], dy = yi - y[j];
             WeirLanes r2 = dx * dx + dy * dy;
-            if (!weir_lanes_any_below(r2, support2)) continue;
+            if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
             WeirLanes r = weir_lanes_sqrt(weir_lanes_max(r2, tiny));
             WeirLanes q = weir_lanes_max(h - r, zero);
             WeirLanes pressure = (term_i + term[j]) * (q * q / r);

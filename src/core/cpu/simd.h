@@ -30,6 +30,7 @@ enum { WEIR_LANES = 4 };
 typedef float WeirLanes __attribute__((vector_size(4 * WEIR_LANES)));
 typedef int32_t WeirMask __attribute__((vector_size(4 * WEIR_LANES)));
 
+// Beside these: weir_lanes_sqrt, weir_lanes_max and weir_lanes_any_below (a < b in at least one lane), per target.
 static inline WeirLanes weir_lanes_load(const float *values)
 {
     WeirLanes lanes;
