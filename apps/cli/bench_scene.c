@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-// Columns of a block of exactly `count` particles, near a share `aspect` of its rows; a prime count gives one
-// row.
+// Columns of a block of exactly `count` particles, near a share `aspect` of its rows; a prime count
+// gives one row.
 static uint32_t block_columns(uint32_t count, double aspect)
 {
     uint32_t columns = (uint32_t)(sqrt(aspect * count) + 0.5);

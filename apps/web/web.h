@@ -1,5 +1,5 @@
-// What weir.wasm adds to the public API for web/src/weir.ts: adapters that take scalars where the API takes
-// structs.
+// What weir.wasm adds to the public API for web/src/weir.ts: adapters that take scalars where the
+// API takes structs.
 #pragma once
 
 #include <stdint.h>

@@ -1,8 +1,8 @@
 // The uniform grid of the neighbour search, shared by CPU and GPU through WeirConstants.
 //
-//   row r:  | | | | |x| | | | |     cells are one search radius high and a quarter as wide, rows are stored
-//   one
-//           |<-- run of cells -->|   after the other: the neighbours of a particle lie in 3 contiguous runs
+//   row r:  | | | | |x| | | | |     cells are one search radius high and a quarter as wide; rows are
+//           |<-- run of cells -->|   stored one after the other, so that the neighbours of a particle
+//                                    lie in three contiguous runs
 //
 // A counting sort of the whole particle data (count, scan, scatter) puts each cell's particles side by side,
 // in order of their ids, so that sums have one order whatever the thread count.
@@ -13,9 +13,9 @@
 // Cells per search radius along x: finer cells trim the runs (measured: docs/performance.md).
 enum { WEIR_CELLS_PER_RADIUS = 4 };
 
-// Fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would outnumber
-// the particles 4 to 1: memory stays bound to the particles, and the search stays correct, only less
-// selective.
+// Fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would
+// outnumber the particles 4 to 1: memory stays bound to the particles, and the search stays
+// correct, only less selective.
 void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3]);
 
 // Cell column and row of a coordinate, clamped into the grid.

@@ -1,5 +1,5 @@
-// Smoothing kernels of `mueller` in 2D and what follows from them: calibrated mass, pass constants, stable
-// step.
+// Smoothing kernels of `mueller` in 2D and what follows from them: calibrated mass, pass constants,
+// stable step.
 //
 // Sources: M. Mueller, D. Charypar, M. Gross, "Particle-based fluid simulation for interactive applications",
 // SCA 2003. The paper's normalisations are for 3D; these are the same shapes normalised for the plane

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-// Largest speed that the fluid can reach, m/s: its own at the start and the fall to the domain's lowest
-// point.
+// Largest speed that the fluid can reach, m/s: its own at the start and the fall to the domain's
+// lowest point.
 static double largest_speed(const WeirScene *scene)
 {
     double largest = 0.0;

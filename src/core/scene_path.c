@@ -1,6 +1,6 @@
-// Scenes by path: "parameters.viscosity", "domain.min", "fluid[2].ball.radius". Loaders for any format need
-// no more than to walk their document and call these; every check of a single value is here or in
-// parameters.c.
+// Scenes by path: "parameters.viscosity", "domain.min", "fluid[2].ball.radius". Loaders for any
+// format need no more than to walk their document and call these; every check of a single value is
+// here or in parameters.c.
 #include "core/scene.h"
 
 #include <math.h>

@@ -193,8 +193,8 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     sim->owed += fmin(wall_seconds, sim->max_lag) * scale;
     double due = floor(sim->owed / dt);
     uint32_t steps = due < sim->max_steps ? (uint32_t)due : sim->max_steps;
-    // What was not taken is dropped: a simulation that is too slow must slow down, not fall ever further
-    // behind.
+    // What was not taken is dropped: a simulation that is too slow must slow down, not fall ever
+    // further behind.
     sim->owed = due > sim->max_steps ? 0.0 : sim->owed - steps * dt;
     uint64_t before = sim->steps;
     WeirStatus status = weir_sim_step(sim, steps);

@@ -1,8 +1,8 @@
 // What a solver is: the contract between a simulation (sim.c) and the code that steps it, on CPU or GPU.
 //
-// A solver owns the particles. Each function below may be called only when the previous ones returned; none
-// may block when it runs in a browser. The CPU solver is the reference: a GPU solver must follow it pass by
-// pass.
+// A solver owns the particles. Each function below may be called only when the previous ones
+// returned; none may block when it runs in a browser. The CPU solver is the reference: a GPU solver
+// must follow it pass by pass.
 #pragma once
 
 #include "core/parameters.h"
@@ -34,8 +34,8 @@ typedef struct WeirSolverInterface {
     // Replaces positions and velocities (ordered by id) and resets step count and health.
     WeirStatus (*set_state)(WeirSolver *solver, const float *position, const float *velocity);
     WeirStatus (*step)(WeirSolver *solver, uint32_t steps);
-    // Lets callbacks run, gives what is known of the particles' health, and the error that stopped the
-    // device.
+    // Lets callbacks run, gives what is known of the particles' health, and the error that stopped
+    // the device.
     WeirStatus (*poll)(WeirSolver *solver, WeirHealth *health);
     // Finishes all queued work; WEIR_PENDING where it may not block.
     WeirStatus (*wait)(WeirSolver *solver);
@@ -63,8 +63,8 @@ typedef struct WeirSolverSetup {
 
 struct WeirBackend {
     const char *name; // "cpu", "gpu"
-    // On failure returns NULL with *status and message set. `backend` may be the first member of something
-    // larger.
+    // On failure returns NULL with *status and message set. `backend` may be the first member of
+    // something larger.
     WeirSolver *(*create_solver)(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
                                  WeirMessage *message);
 };

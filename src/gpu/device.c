@@ -298,8 +298,8 @@ void weir_gpu_submit(WeirGpu *gpu, WGPUCommandEncoder encoder, const char *label
     WGPUCommandBuffer commands = wgpuCommandEncoderFinish(encoder, &descriptor);
     wgpuCommandEncoderRelease(encoder);
     if (!commands) return; // the uncaptured error says why
-    // wgpu-native aborts the process if commands are submitted to a lost device; recording them told of the
-    // loss.
+    // wgpu-native aborts the process if commands are submitted to a lost device; recording them
+    // told of the loss.
     if (gpu->status == WEIR_OK) weir_platform_submit(gpu, commands);
     wgpuCommandBufferRelease(commands);
 }

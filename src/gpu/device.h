@@ -7,8 +7,8 @@
 // Threads of a workgroup, in C and WGSL alike.
 enum { WEIR_WORKGROUP_SIZE = 128 };
 
-// Submits that may be under way natively: enough to keep the device busy, few enough to bound the queue's
-// memory.
+// Submits that may be under way natively: enough to keep the device busy, few enough to bound the
+// queue's memory.
 enum { WEIR_MAX_SUBMITS = 4 };
 
 typedef struct WeirGpuBackend {

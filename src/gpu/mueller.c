@@ -1,5 +1,5 @@
-// The method `mueller` on the GPU: the same passes in the same order as src/core/cpu/mueller.c, which judges
-// it.
+// The method `mueller` on the GPU: the same passes in the same order as src/core/cpu/mueller.c,
+// which judges it.
 //
 // Steps are batched: one compute pass holds as many as a submit may take, with no work for the queue in
 // between. Between steps cell_count and the heads of cell_link are zero (density empties them).

@@ -4,8 +4,8 @@
 
 WGPUInstance weir_platform_create_instance(void)
 {
-    // Vulkan, Metal and DirectX 12: OpenGL's compute shaders fall short, and looking for it makes drivers
-    // print.
+    // Vulkan, Metal and DirectX 12: OpenGL's compute shaders fall short, and looking for it makes
+    // drivers print.
     WGPUInstanceExtras extras = {.chain.sType = (WGPUSType)WGPUSType_InstanceExtras,
                                  .backends = WGPUInstanceBackend_Primary};
     return wgpuCreateInstance(&(WGPUInstanceDescriptor){.nextInChain = &extras.chain});

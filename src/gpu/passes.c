@@ -68,8 +68,8 @@ uint32_t weir_pass_storage_buffers(WeirPass pass)
     return count;
 }
 
-// Constants that C decides: binding numbers by name, sizes, and the kernels' choice, so that no pass branches
-// on it.
+// Constants that C decides: binding numbers by name, sizes, and the kernels' choice, so that no
+// pass branches on it.
 static size_t write_constants(char *text, size_t capacity, uint32_t kernels, uint32_t scan_blocks)
 {
     size_t length = 0;

@@ -7,8 +7,8 @@
 WGPUInstance weir_platform_create_instance(void);
 // True if weir_platform_wait() blocks and callbacks come only from within webgpu.h calls.
 bool weir_platform_can_wait(void);
-// Blocks until the queued work is done and its callbacks ran. Returns false, at once, where nothing may
-// block.
+// Blocks until the queued work is done and its callbacks ran. Returns false, at once, where nothing
+// may block.
 bool weir_platform_wait(WeirGpu *gpu);
 // Queues one command buffer; natively waits while too many are under way.
 void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands);

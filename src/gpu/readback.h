@@ -1,5 +1,5 @@
-// A copy from the device to the host that may take a while: idle -> (copy queued) -> pending -> ready ->
-// idle.
+// A copy from the device to the host that may take a while: idle -> (copy queued) -> pending ->
+// ready -> idle.
 #pragma once
 
 #include "gpu/device.h"

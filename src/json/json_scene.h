@@ -1,5 +1,5 @@
-// Scene files, docs/scene.schema.json. The loader only walks the document; every check of a value is in the
-// core.
+// Scene files, docs/scene.schema.json. The loader only walks the document; every check of a value
+// is in the core.
 #pragma once
 
 #include "weir/weir.h"

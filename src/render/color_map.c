@@ -26,8 +26,8 @@ static const float control_points[WEIR_COLOR_MAPS][POINTS][3] = {
                             {0.800f, -0.1004f, 0.1115f},
                             {0.880f, -0.0697f, 0.1495f},
                             {0.940f, -0.0413f, 0.1442f}},
-    // Density error: diverging, dark in the middle, which belongs at zero; cyan is too thin, orange too
-    // dense.
+    // Density error: diverging, dark in the middle, which belongs at zero; cyan is too thin, orange
+    // too dense.
     [WEIR_COLOR_DENSITY_ERROR] = {{0.900f, -0.0680f, -0.0317f},
                                   {0.760f, -0.0817f, -0.0736f},
                                   {0.600f, -0.0516f, -0.0971f},

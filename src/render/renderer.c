@@ -1,5 +1,5 @@
-// The renderer: pipelines made once, one uniform write and one render pass per frame, nothing allocated per
-// frame.
+// The renderer: pipelines made once, one uniform write and one render pass per frame, nothing
+// allocated per frame.
 #include <math.h>
 #include <stdlib.h>
 

@@ -16,8 +16,8 @@
 #define WEIR_TEXT(view) (view).data, weir_webgpu_text_length(view)
 
 size_t weir_webgpu_text_length(WGPUStringView view);
-// Copies the text that JavaScript holds ready, `length` bytes of it, into memory from malloc; NULL data if
-// empty.
+// Copies the text that JavaScript holds ready, `length` bytes of it, into memory from malloc; NULL
+// data if empty.
 WGPUStringView weir_webgpu_take_text(size_t length);
 // Reports a use of the API that the layer does not serve, as a validation error of the device.
 void weir_webgpu_refuse(uint32_t device, const char *message);

@@ -1,6 +1,6 @@
-// Instance, adapter, device, surface, and the way of every callback: JavaScript keeps what has finished in a
-// queue and wgpuInstanceProcessEvents() takes it out through the exported weir_webgpu_*_done() functions
-// below.
+// Instance, adapter, device, surface, and the way of every callback: JavaScript keeps what has
+// finished in a queue and wgpuInstanceProcessEvents() takes it out through the exported
+// weir_webgpu_*_done() functions below.
 #include "webgpu_web/imports.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// The pointer's tools: what they do to single particles within their radius, and that nothing else feels
-// them.
+// The pointer's tools: what they do to single particles within their radius, and that nothing else
+// feels them.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -297,8 +297,8 @@ static void refused_calls_change_nothing(void **state)
     weir_scene_destroy(before);
 }
 
-// Messages quote values and cut them; the cut must not leave half a character, or JSON output would refuse
-// it.
+// Messages quote values and cut them; the cut must not leave half a character, or JSON output would
+// refuse it.
 static void messages_are_utf8(void **state)
 {
     (void)state;

@@ -82,8 +82,8 @@ static void article_step_is_judged_rightly(void **state)
     weir_scene_destroy(scene);
 }
 
-// What the estimate must follow: c = sqrt(k) and length. It is rounded down to two digits, so by 10 % at
-// most.
+// What the estimate must follow: c = sqrt(k) and length. It is rounded down to two digits, so by 10
+// % at most.
 static void estimate_scales_with_the_method(void **state)
 {
     (void)state;

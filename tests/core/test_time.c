@@ -123,8 +123,8 @@ static void a_long_pause_is_forgotten(void **state)
     weir_sim_destroy(sim);
 }
 
-// A machine far too slow for the scene: every frame takes as long as its steps did. The frame time must
-// settle.
+// A machine far too slow for the scene: every frame takes as long as its steps did. The frame time
+// must settle.
 static void overload_never_spirals(void **state)
 {
     (void)state;

@@ -32,8 +32,8 @@ static void device_starts(void **state)
     weir_gpu_destroy(gpu);
 }
 
-// A program may give up while the adapter is still being looked for, and no backend exists before it was
-// found.
+// A program may give up while the adapter is still being looked for, and no backend exists before
+// it was found.
 static void device_may_be_destroyed_early(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Every field of Parameters and Constants, as a shader sees it, is the one that C wrote: a pass echoes all of
-// them.
+// Every field of Parameters and Constants, as a shader sees it, is the one that C wrote: a pass
+// echoes all of them.
 #include "adapter.h"
 #include "gpu/passes.h"
 #include "gpu/readback.h"

@@ -6,12 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "adapter.h"
 #include "core/sim.h"
 #include "image.h"
 #include "weir/weir_render.h"
 #include "json/json_scene.h"
 
-static int fail(const char *what, const char *message)
+static int complain(const char *what, const char *message)
 {
     fprintf(stderr, "%s: %s\n", what, message);
     return 1;
@@ -39,11 +40,11 @@ static WeirSim *make_state(const WeirScene *scene, WeirGpu *gpu, uint32_t steps)
     WeirStatus status = weir_sim_status(cpu);
     if (status == WEIR_OK) status = weir_sim_step(cpu, steps);
     if (status == WEIR_OK) status = weir_sim_state(cpu, &state);
-    if (status != WEIR_OK) fail("simulation on the CPU", weir_sim_error(cpu));
+    if (status != WEIR_OK) complain("simulation on the CPU", weir_sim_error(cpu));
     if (status == WEIR_OK) {
         status = weir_sim_set_state(sim, state.position, state.velocity);
         if (status == WEIR_OK) status = weir_sim_wait(sim);
-        if (status != WEIR_OK) fail("simulation on the device", weir_sim_error(sim));
+        if (status != WEIR_OK) complain("simulation on the device", weir_sim_error(sim));
     }
     weir_sim_destroy(cpu);
     if (status == WEIR_OK) return sim;
@@ -91,17 +92,17 @@ static int draw(WeirGpu *gpu, WeirSim *sim, int argc, char **argv)
     uint32_t width = (uint32_t)atoi(argv[3]), height = (uint32_t)atoi(argv[4]);
     WeirImage image;
     if (!weir_image_create(&image, gpu, WGPUTextureFormat_BGRA8Unorm, width, height)) {
-        return fail("picture", "no device memory");
+        return complain("picture", "no device memory");
     }
     WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_BGRA8Unorm);
     WeirView view = make_view(sim, width, height, argc - 6, argv + 6);
     int result = 0;
     if (weir_renderer_draw(renderer, sim, &view, image.view, width, height) != WEIR_OK) {
-        result = fail("drawing", weir_renderer_error(renderer));
+        result = complain("drawing", weir_renderer_error(renderer));
     } else if (!weir_image_read(&image)) {
-        result = fail("reading back", weir_gpu_error(gpu));
+        result = complain("reading back", weir_gpu_error(gpu));
     } else if (!write_ppm(argv[2], &image)) {
-        result = fail(argv[2], "cannot be written");
+        result = complain(argv[2], "cannot be written");
     }
     weir_renderer_destroy(renderer);
     weir_image_destroy(&image);
@@ -111,8 +112,9 @@ static int draw(WeirGpu *gpu, WeirSim *sim, int argc, char **argv)
 int main(int argc, char **argv)
 {
     if (argc < 6) {
-        return fail("usage", "weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT STEPS [COLOR_BY MIN MAX "
-                             "[ZOOM X Y [TOOL_PRESSED]]]");
+        return complain("usage",
+                        "weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT STEPS [COLOR_BY MIN MAX "
+                        "[ZOOM X Y [TOOL_PRESSED]]]");
     }
     WeirScene *scene = NULL;
     char message[512] = "no memory";
@@ -120,16 +122,11 @@ int main(int argc, char **argv)
         scene = built_in_scene();
     else
         weir_json_load_scene(argv[1], &scene, message, sizeof message);
-    if (!scene) return fail("scene", message);
-    WeirGpu *gpu = weir_gpu_create(NULL);
-    int result = 1;
-    if (weir_gpu_wait(gpu) != WEIR_OK) {
-        fail("device", weir_gpu_error(gpu));
-    } else {
-        WeirSim *sim = make_state(scene, gpu, (uint32_t)atoi(argv[5]));
-        if (sim) result = draw(gpu, sim, argc, argv);
-        weir_sim_destroy(sim);
-    }
+    if (!scene) return complain("scene", message);
+    WeirGpu *gpu = weir_test_gpu(NULL);
+    WeirSim *sim = make_state(scene, gpu, (uint32_t)atoi(argv[5]));
+    int result = sim ? draw(gpu, sim, argc, argv) : 1;
+    weir_sim_destroy(sim);
     weir_gpu_destroy(gpu);
     weir_scene_destroy(scene);
     return result;

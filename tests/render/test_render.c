@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "adapter.h"
 #include "common/build.h"
 #include "image.h"
 #include "render/renderer.h"
@@ -14,11 +15,8 @@ static const uint32_t discs_on_background = 1u << WEIR_EFFECT_PARTICLES | 1u << 
 
 static int start(void **state)
 {
-    WeirGpu *gpu = weir_gpu_create(NULL);
-    *state = gpu;
-    if (weir_gpu_wait(gpu) == WEIR_OK) return 0;
-    print_error("no device: %s\n", weir_gpu_error(gpu));
-    return -1;
+    *state = weir_test_gpu(NULL);
+    return 0;
 }
 
 static int end(void **state)
@@ -413,8 +411,7 @@ static void bad_input_is_refused(void **state)
     view.particle_radius = -1.0f;
     check_refused(renderer, sim, &view, image.view, 32, "particle_radius is -1");
 
-    WeirGpu *other = weir_gpu_create(NULL);
-    assert_int_equal(weir_gpu_wait(other), WEIR_OK);
+    WeirGpu *other = weir_test_gpu(NULL);
     WeirRenderer *stranger = weir_renderer_create(other, WGPUTextureFormat_BGRA8Unorm);
     check_refused(stranger, sim, &good, image.view, 32, "renderer's device");
     weir_renderer_destroy(stranger);

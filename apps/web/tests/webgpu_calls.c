@@ -1,7 +1,7 @@
-// A program for the tests of the layer (web/tests/node/webgpu.test.ts): every call that src/webgpu_web
-// serves, with its results read back. A test is a function that JavaScript calls with step 0, 1, 2, ... until
-// it is no longer pending; between two steps the event loop runs. It may keep its state in statics: it runs
-// once.
+// A program for the tests of the layer (web/tests/node/webgpu.test.ts): every call that
+// src/webgpu_web serves, with its results read back. A test is a function that JavaScript calls
+// with step 0, 1, 2, ... until it is no longer pending; between two steps the event loop runs. It
+// may keep its state in statics: it runs once.
 #include "webgpu_calls.h"
 
 #include <stdio.h>

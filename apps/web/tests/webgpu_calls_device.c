@@ -237,8 +237,8 @@ static int test_uncaptured(uint32_t step)
     return DONE;
 }
 
-// What the browser refuses with an exception comes as an error of the device with the call's name, not as a
-// trap.
+// What the browser refuses with an exception comes as an error of the device with the call's name,
+// not as a trap.
 static int test_exception(uint32_t step)
 {
     static WGPUBuffer buffer;

@@ -3,8 +3,8 @@
 
 #include "core/solver.h"
 
-// Position, velocity and id. One allocation; arrays are padded so that a vector may be read at the last
-// particle.
+// Position, velocity and id. One allocation; arrays are padded so that a vector may be read at the
+// last particle.
 typedef struct WeirParticleArrays {
     float *x, *y, *vx, *vy;
     uint32_t *id;

@@ -7,8 +7,8 @@
 //        ^                                                                                          |
 //        +------------------------------------- integrate ------------------------------------------+
 //
-// No pass reads what it writes, and every sum has one order, so the bits depend on neither threads nor
-// compiler.
+// No pass reads what it writes, and every sum has one order, so the bits depend on neither threads
+// nor compiler.
 #include "core/cpu/arrays.h"
 #include "core/cpu/pairs.h"
 #include "core/cpu/pool.h"
@@ -58,8 +58,8 @@ static uint32_t scan_blocks(uint32_t cells)
 
 // ---- Passes ----
 
-// Adds `particles` to a cell and returns how many it held. A plain addition is several times faster than an
-// atomic.
+// Adds `particles` to a cell and returns how many it held. A plain addition is several times faster
+// than an atomic.
 static inline uint32_t add_to_cell(MuellerCpu *solver, uint32_t cell, uint32_t particles, bool alone)
 {
     atomic_uint *counter = &solver->cell_count[cell];
