@@ -94,7 +94,7 @@ static float *read_fields(WeirSim *sim, char *message, size_t message_size)
         return NULL;
     }
     for (size_t k = 0; k < 4; ++k) {
-        size_t size = count * weir_field_components(fields[k]);
+        size_t size = count * weir_field_components(fields[k], weir_sim_dimension(sim));
         if (weir_sim_read(sim, fields[k], values + used, size)) {
             snprintf(message, message_size, "--dump: %s", weir_sim_error(sim));
             free(values);

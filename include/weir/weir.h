@@ -54,6 +54,7 @@ typedef struct WeirParameterInfo {
     WeirParameterKind kind;
     double default_value[3]; // one number, three for a vector, the index for a choice
     double minimum, maximum; // allowed range, ends included; both 0 for a choice
+    const char *method;      // the only method that reads it; "" if every one does
     bool live; // true: may change while a simulation runs; false: takes effect at the next reset
 } WeirParameterInfo;
 
@@ -96,8 +97,8 @@ WeirStatus weir_scene_add_ball(WeirScene *scene, const double center[3], double 
 // Current value of a parameter; a vector gives 3 numbers, a choice its index. `values` holds 3.
 WeirStatus weir_scene_get_parameter(const WeirScene *scene, const char *name, double values[3]);
 const char *weir_scene_title(const WeirScene *scene);  // "" if none was set
-const char *weir_scene_method(const WeirScene *scene); // "mueller"
-uint32_t weir_scene_dimension(const WeirScene *scene); // 2
+const char *weir_scene_method(const WeirScene *scene); // "mueller" or "wcsph"
+uint32_t weir_scene_dimension(const WeirScene *scene); // 2 or 3
 void weir_scene_domain(const WeirScene *scene, double min[3], double max[3]);
 
 // Checks the scene as a whole: some fluid, inside the domain, pieces that do not overlap, a particle count that
@@ -140,7 +141,9 @@ const char *weir_sim_warning(const WeirSim *sim); // advice, "" if none
 const char *weir_sim_backend(const WeirSim *sim); // "cpu" or "gpu"
 const char *weir_sim_device(const WeirSim *sim);  // "CPU, 2 threads, AVX2" or the adapter's name
 uint32_t weir_sim_threads(const WeirSim *sim);    // 0 on the GPU
-uint32_t weir_sim_particle_count(const WeirSim *sim);
+uint32_t weir_sim_particle_count(const WeirSim *sim); // of all: fluid, empty slots, walls, bodies
+uint32_t weir_sim_fluid_slots(const WeirSim *sim);    // ids below are fluid or empty slots
+uint32_t weir_sim_dimension(const WeirSim *sim);      // 2 or 3
 uint64_t weir_sim_step_count(const WeirSim *sim);    // steps since the last reset
 double weir_sim_time(const WeirSim *sim);            // simulated seconds since the last reset
 const WeirScene *weir_sim_scene(const WeirSim *sim); // as it runs now, changed parameters included
@@ -154,6 +157,10 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
 void weir_sim_set_max_steps(WeirSim *sim, uint32_t max_steps); // see WeirSimOptions; 0: 64
 // Lets asynchronous work go on and checks for NaN, blow-up, lost particles and device faults. Never blocks.
 WeirStatus weir_sim_poll(WeirSim *sim);
+// Steps until the simulated time is `time` seconds: exactly with adaptive steps, whose last one is shortened; to
+// the nearest step with fixed ones. Natively it returns when that is done; in a browser it queues a batch and
+// returns WEIR_PENDING until the time is reached.
+WeirStatus weir_sim_run_until(WeirSim *sim, double time);
 // Waits until all queued steps are done. In a browser, where nothing may block, returns WEIR_PENDING instead.
 WeirStatus weir_sim_wait(WeirSim *sim);
 // Back to the scene's start.
@@ -161,7 +168,8 @@ WeirStatus weir_sim_reset(WeirSim *sim);
 // Changes a parameter of the running simulation; same checks and messages as weir_scene_set_*. Parameters that
 // are not live are refused: change the scene and make a new simulation.
 WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *values, size_t count);
-// Replaces positions and velocities (2 * particle_count floats each: x0, y0, x1, y1, ...).
+// Replaces positions and velocities (dimension * particle_count floats each: x0, y0, x1, y1, ...). Those of walls
+// and bodies are not read: they stay where the scene starts them.
 WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float *velocities);
 
 // A tool that acts on the fluid within `radius` of `position` (metres): push away, pull in, or stir, which
@@ -178,18 +186,33 @@ WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool); // NULL: none
 
 // Particle data, ordered by id. Density and pressure belong to the positions that are read with them.
 typedef enum WeirField {
-    WEIR_FIELD_POSITION,     // x, y per particle, m
-    WEIR_FIELD_VELOCITY,     // x, y per particle, m/s
-    WEIR_FIELD_ACCELERATION, // x, y per particle, m/s^2, without the tool's share
+    WEIR_FIELD_POSITION,     // x, y (and z in 3D) per particle, m
+    WEIR_FIELD_VELOCITY,     // m/s
+    WEIR_FIELD_ACCELERATION, // m/s^2, without the tool's share
     WEIR_FIELD_DENSITY,      // one per particle, kg/m^3
     WEIR_FIELD_PRESSURE,     // one per particle, Pa
+    WEIR_FIELD_GROUP,        // one per particle: 0 fluid, -1 an empty slot, k + 1 wall or body k (walls first)
 } WeirField;
-// Floats per particle of a field: 2 or 1.
-uint32_t weir_field_components(WeirField field);
+// Floats per particle of a field in `dimension` 2 or 3: the dimension for a vector, else 1.
+uint32_t weir_field_components(WeirField field, uint32_t dimension);
 // Copies a field of the current state; `capacity` is the number of floats that `values` holds, at least
 // particle_count * components. Natively it waits for the device; in a browser it returns WEIR_PENDING until the
 // copy that it started has arrived (then the values are those of the step at which it was started).
 WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t capacity);
+
+// What a simulation knows of itself while it runs, without reading the particles. `mueller` knows step and time
+// only; the rest is NaN or 0.
+typedef struct WeirClock {
+    uint64_t step;
+    double time;              // s
+    double time_step;         // s, of the next step
+    double sound_speed;       // m/s
+    double max_speed;         // m/s, of the fluid
+    double mach_number;       // max_speed / sound_speed; above 0.1 the fluid is no longer nearly incompressible
+    double max_density_error; // largest |rho / rho0 - 1|
+    uint32_t fluid_particles, drained_particles, lost_particles;
+} WeirClock;
+WeirClock weir_sim_clock(const WeirSim *sim);
 
 // Everything that Weir measures, computed by one function for CPU and GPU, in double precision.
 typedef struct WeirDiagnostics {

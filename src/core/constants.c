@@ -1,6 +1,7 @@
 // From parameters and scene to what the passes read.
 #include "core/grid.h"
 #include "core/kernel.h"
+#include "core/smoothing.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,9 +32,8 @@ void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool)
     memcpy(constants->tool_velocity, tool->velocity, sizeof tool->velocity);
 }
 
-void weir_constants_make(WeirConstants *constants, const WeirParameters *parameters, uint32_t dimension,
-                         const double domain_min[3], const double domain_max[3], uint32_t particle_count,
-                         const WeirTool *tool)
+// Constants of the passes of `mueller`.
+static void make_mueller(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters)
 {
     // A particle on the support radius adds nothing, so this margin only guards against rounding.
     static const double search_margin = 1.0001;
@@ -43,13 +43,6 @@ void weir_constants_make(WeirConstants *constants, const WeirParameters *paramet
     double density = parameters->kernels == WEIR_KERNELS_TUTORIAL
                          ? weir_kernel_poly6(0.0, h) / (h * h * h * h * h * h)
                          : spiky;
-    memset(constants, 0, sizeof *constants);
-    for (int axis = 0; axis < 3; ++axis) {
-        constants->domain_min[axis] = (float)domain_min[axis];
-        constants->domain_max[axis] = (float)domain_max[axis];
-    }
-    constants->dimension = dimension;
-    constants->particle_count = particle_count;
     constants->particle_mass = (float)mass;
     constants->density_factor = (float)(mass * density);
     constants->pressure_factor = (float)(-mass * weir_kernel_spiky_gradient(0.0, h) / (h * h));
@@ -57,6 +50,84 @@ void weir_constants_make(WeirConstants *constants, const WeirParameters *paramet
         (float)(mass * parameters->viscosity * weir_kernel_viscosity_laplacian(0.0, h) / h);
     constants->search_radius = (float)(h * search_margin);
     constants->speed_limit = (float)(0.5 * h / parameters->time_step);
-    weir_grid_make(constants, domain_min, domain_max);
+    weir_grid_make(constants, scene->domain_min, scene->domain_max);
+}
+
+// Coordinates and cells of `wcsph`. The grid reaches two support radii beyond the domain, for walls; not along
+// periodic axes. Cells are one support radius high and deep and a quarter as wide, and grow where they would
+// outnumber the particles 4 to 1.
+static void make_coordinates(WeirConstants *constants, const WeirScene *scene, double support_radius)
+{
+    double extent[3] = {0.0, 0.0, 0.0}, longest = 0.0;
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        double margin = scene->periodic[axis] ? 0.0 : 2.0 * support_radius;
+        constants->origin[axis] = (float)(scene->domain_min[axis] - margin);
+        extent[axis] = scene->domain_max[axis] + margin - (double)constants->origin[axis];
+        longest = fmax(longest, extent[axis]);
+    }
+    // Differences inside the support must be exact in float32 (24 bits), and all coordinates below 2^30.
+    uint32_t bits = 24;
+    while (bits > 8 && longest / support_radius * (double)(1u << bits) >= 1073741824.0) --bits;
+    double quantum = support_radius / (double)(1u << bits);
+    constants->coordinate_bits = bits;
+    constants->quantum = (float)quantum;
+    constants->inverse_quantum = (float)(1.0 / quantum);
+    constants->inverse_support = (float)(1.0 / (double)(1u << bits));
+    uint32_t *periods[3] = {&constants->period_x, &constants->period_y, &constants->period_z};
+    for (int axis = 0; axis < 3; ++axis) {
+        double period = scene->domain_max[axis] - scene->domain_min[axis];
+        *periods[axis] = scene->periodic[axis] ? (uint32_t)floor(period / quantum + 0.5) : 0;
+    }
+    uint32_t column = bits - 2, row = bits;
+    double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0);
+    for (;;) {
+        double columns = floor(extent[0] / quantum / (double)(1u << column)) + 1.0;
+        double rows = floor(extent[1] / quantum / (double)(1u << row)) + 1.0;
+        double layers = floor(extent[2] / quantum / (double)(1u << row)) + 1.0;
+        constants->cell_columns = (uint32_t)columns;
+        constants->cell_rows = (uint32_t)rows;
+        constants->cell_layers = (uint32_t)layers;
+        if (columns * rows * layers <= limit) break;
+        if (++column > row) row = column;
+    }
+    constants->column_shift = column;
+    constants->row_shift = row;
+    constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
+}
+
+// Constants of the passes of `wcsph`.
+static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters)
+{
+    double support = parameters->support_radius, spacing = parameters->particle_spacing;
+    uint32_t kernel = parameters->kernel, dimension = scene->dimension;
+    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    constants->particle_mass = (float)(parameters->rest_density * volume);
+    constants->smoothing_length = (float)weir_smoothing_length(kernel, support);
+    constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);
+    constants->gradient_factor = (float)weir_smoothing_gradient_factor(kernel, dimension, support);
+    constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
+    constants->sound_speed = parameters->sound_speed;
+    constants->search_radius = (float)support;
+    constants->speed_limit = parameters->sound_speed;
+    make_coordinates(constants, scene, support);
+}
+
+void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,
+                         uint32_t particle_count, const WeirTool *tool)
+{
+    memset(constants, 0, sizeof *constants);
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        constants->domain_min[axis] = (float)scene->domain_min[axis];
+        constants->domain_max[axis] = (float)scene->domain_max[axis];
+        constants->center[axis] = (float)(0.5 * (scene->domain_min[axis] + scene->domain_max[axis]));
+    }
+    constants->dimension = scene->dimension;
+    constants->particle_count = particle_count;
+    constants->cell_layers = 1;
+    if (scene->method == WEIR_METHOD_WCSPH) {
+        make_wcsph(constants, scene, parameters);
+    } else {
+        make_mueller(constants, scene, parameters);
+    }
     weir_constants_set_tool(constants, tool);
 }

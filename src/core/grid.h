@@ -8,12 +8,16 @@
 // in order of their ids, so that sums have one order whatever the thread count.
 #pragma once
 
-#include "core/parameters.h"
+#include "core/scene.h"
 
 // Cells per search radius along x: finer cells trim the runs (measured: docs/performance.md).
 enum { WEIR_CELLS_PER_RADIUS = 4 };
 
-// Fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would
+// Derives all constants from a scene and its resolved parameters; first_solid and solid_count are the caller's.
+void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,
+                         uint32_t particle_count, const WeirTool *tool);
+
+// `mueller`: fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would
 // outnumber the particles 4 to 1: memory stays bound to the particles, and the search stays
 // correct, only less selective.
 void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3]);
@@ -36,4 +40,13 @@ static inline uint32_t weir_grid_row(const WeirConstants *constants, float y)
 {
     return weir_grid_clamp((y - constants->domain_min[1]) * constants->inverse_cell_height,
                            constants->cell_rows);
+}
+
+// `wcsph`: positions are whole numbers of quanta (32-bit, from constants.origin), so that differences are exact
+// however large the domain; cells are powers of two of them. Cell of a coordinate, clamped into the grid.
+static inline uint32_t weir_grid_cell(int32_t coordinate, uint32_t shift, uint32_t count)
+{
+    if (coordinate < 0) return 0;
+    uint32_t cell = (uint32_t)coordinate >> shift;
+    return cell < count ? cell : count - 1;
 }

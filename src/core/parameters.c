@@ -7,12 +7,12 @@
 #include <string.h>
 
 static const WeirParameterInfo parameter_table[] = {
-#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, live, help)                                       \
-    {#name, unit, help, NULL, WEIR_PARAMETER_VECTOR, {x, y, z}, minimum, maximum, live},
-#define WEIR_NUMBER(name, unit, value, minimum, maximum, live, help)                                         \
-    {#name, unit, help, NULL, WEIR_PARAMETER_NUMBER, {value}, minimum, maximum, live},
-#define WEIR_CHOICE(name, names, value, live, help)                                                          \
-    {#name, "1", help, names, WEIR_PARAMETER_CHOICE, {value}, 0, 0, live},
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                                       \
+    {#name, unit, help, NULL, WEIR_PARAMETER_VECTOR, {x, y, z}, minimum, maximum, method, live},
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                         \
+    {#name, unit, help, NULL, WEIR_PARAMETER_NUMBER, {value}, minimum, maximum, method, live},
+#define WEIR_CHOICE(name, names, value, method, live, help)                                                          \
+    {#name, "1", help, names, WEIR_PARAMETER_CHOICE, {value}, 0, 0, method, live},
 #include "core/params.inl"
 };
 enum { PARAMETER_COUNT = sizeof parameter_table / sizeof parameter_table[0] };
@@ -40,7 +40,7 @@ const char weir_wgsl_structs[] = "struct Parameters {\n"
 static_assert(sizeof(WeirParameters) % 16 == 0, "WeirParameters must have the size of its WGSL struct");
 static_assert(sizeof(WeirConstants) % 16 == 0, "WeirConstants must have the size of its WGSL struct");
 static_assert(offsetof(WeirParameters, particle_spacing) == 16, "numbers follow the vectors without a gap");
-static_assert(offsetof(WeirConstants, tool_radius) == 4 * 16, "numbers follow the vectors without a gap");
+static_assert(offsetof(WeirConstants, tool_radius) == 6 * 16, "numbers follow the vectors without a gap");
 
 uint32_t weir_parameter_count(void)
 {

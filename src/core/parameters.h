@@ -9,9 +9,9 @@
 #include "weir/weir.h"
 
 typedef struct WeirParameters {
-#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, live, help) alignas(16) float name[4];
-#define WEIR_NUMBER(name, unit, value, minimum, maximum, live, help)   float name;
-#define WEIR_CHOICE(name, names, value, live, help)                    uint32_t name;
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help) alignas(16) float name[4];
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)   float name;
+#define WEIR_CHOICE(name, names, value, method, live, help)                    uint32_t name;
 #include "core/params.inl"
 } WeirParameters;
 
@@ -25,6 +25,9 @@ typedef struct WeirConstants {
 // The values of the choices in params.inl, by index.
 enum { WEIR_KERNELS_CONSISTENT, WEIR_KERNELS_TUTORIAL };
 enum { WEIR_SEARCH_GRID, WEIR_SEARCH_ALL_PAIRS };
+enum { WEIR_KERNEL_WENDLAND, WEIR_KERNEL_CUBIC, WEIR_KERNEL_QUINTIC };
+enum { WEIR_EQUATION_LINEAR, WEIR_EQUATION_TAIT };
+enum { WEIR_STEPPING_ADAPTIVE, WEIR_STEPPING_FIXED };
 
 // WGSL text of `struct Parameters` and `struct Constants`, prepended to every shader.
 extern const char weir_wgsl_structs[];
@@ -42,9 +45,5 @@ WeirStatus weir_parameter_set_choice(WeirParameters *parameters, uint32_t index,
 WeirStatus weir_parameter_set_text(WeirParameters *parameters, uint32_t index, const char *text,
                                    WeirMessage *message);
 
-// Derives the constants of `mueller` from the parameters. `tool` NULL: none.
-void weir_constants_make(WeirConstants *constants, const WeirParameters *parameters, uint32_t dimension,
-                         const double domain_min[3], const double domain_max[3], uint32_t particle_count,
-                         const WeirTool *tool);
 // Replaces the tool alone. `tool` NULL: none.
 void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool);

@@ -16,16 +16,16 @@ static Lattice fluid_lattice(const WeirFluid *fluid, double spacing)
 {
     Lattice lattice;
     for (int axis = 0; axis < 2; ++axis) {
-        double low = fluid->min[axis], size = fluid->max[axis] - fluid->min[axis];
-        if (fluid->shape == WEIR_SHAPE_BALL) {
-            low = fluid->center[axis] - fluid->radius;
-            size = 2.0 * fluid->radius;
+        double low = fluid->shape.min[axis], size = fluid->shape.max[axis] - fluid->shape.min[axis];
+        if (fluid->shape.kind == WEIR_SHAPE_BALL) {
+            low = fluid->shape.center[axis] - fluid->shape.radius;
+            size = 2.0 * fluid->shape.radius;
         }
         double sites = floor(size / spacing + 0.5);
         lattice.sites[axis] = sites >= 1.0 ? (uint64_t)fmin(sites, 1e9) : 0;
         // A ball's lattice is centred; a box's starts half a spacing from its lowest corner.
         double margin =
-            fluid->shape == WEIR_SHAPE_BALL ? 0.5 * (size - (sites - 1.0) * spacing) : 0.5 * spacing;
+            fluid->shape.kind == WEIR_SHAPE_BALL ? 0.5 * (size - (sites - 1.0) * spacing) : 0.5 * spacing;
         lattice.origin[axis] = low + margin;
     }
     return lattice;
@@ -39,12 +39,12 @@ static uint64_t fill_fluid(const WeirFluid *fluid, double spacing, uint64_t next
         for (uint64_t column = 0; column < lattice.sites[0]; ++column) {
             double x = lattice.origin[0] + (double)column * spacing;
             double y = lattice.origin[1] + (double)row * spacing;
-            double dx = x - fluid->center[0], dy = y - fluid->center[1];
-            if (fluid->shape == WEIR_SHAPE_BALL && dx * dx + dy * dy > fluid->radius * fluid->radius)
+            double dx = x - fluid->shape.center[0], dy = y - fluid->shape.center[1];
+            if (fluid->shape.kind == WEIR_SHAPE_BALL && dx * dx + dy * dy > fluid->shape.radius * fluid->shape.radius)
                 continue;
             if (particles->position) {
-                particles->position[2 * next] = (float)x;
-                particles->position[2 * next + 1] = (float)y;
+                particles->position[2 * next] = x;
+                particles->position[2 * next + 1] = y;
                 particles->velocity[2 * next] = (float)fluid->velocity[0];
                 particles->velocity[2 * next + 1] = (float)fluid->velocity[1];
             }
@@ -58,19 +58,19 @@ static WeirStatus check_fluid(WeirScene *scene, uint32_t index)
 {
     const WeirFluid *fluid = &scene->fluid[index];
     const char *missing = NULL;
-    if (fluid->shape == WEIR_SHAPE_NONE) missing = "box or ball";
-    if (fluid->shape == WEIR_SHAPE_BOX && !fluid->has_max) missing = "box.max";
-    if (fluid->shape == WEIR_SHAPE_BOX && !fluid->has_min) missing = "box.min";
-    if (fluid->shape == WEIR_SHAPE_BALL && !fluid->has_radius) missing = "ball.radius";
-    if (fluid->shape == WEIR_SHAPE_BALL && !fluid->has_center) missing = "ball.center";
+    if (fluid->shape.kind == WEIR_SHAPE_NONE) missing = "box or ball";
+    if (fluid->shape.kind == WEIR_SHAPE_BOX && !fluid->shape.has_max) missing = "box.max";
+    if (fluid->shape.kind == WEIR_SHAPE_BOX && !fluid->shape.has_min) missing = "box.min";
+    if (fluid->shape.kind == WEIR_SHAPE_BALL && !fluid->shape.has_radius) missing = "ball.radius";
+    if (fluid->shape.kind == WEIR_SHAPE_BALL && !fluid->shape.has_center) missing = "ball.center";
     if (missing)
         return weir_fail(&scene->error, WEIR_ERROR_INPUT, "fluid[%u]: %s is missing", index, missing);
     for (int axis = 0; axis < 2; ++axis) {
-        double low = fluid->min[axis], high = fluid->max[axis];
+        double low = fluid->shape.min[axis], high = fluid->shape.max[axis];
         char name = "xy"[axis];
-        if (fluid->shape == WEIR_SHAPE_BALL) {
-            low = fluid->center[axis] - fluid->radius;
-            high = fluid->center[axis] + fluid->radius;
+        if (fluid->shape.kind == WEIR_SHAPE_BALL) {
+            low = fluid->shape.center[axis] - fluid->shape.radius;
+            high = fluid->shape.center[axis] + fluid->shape.radius;
         }
         if (low >= high) {
             return weir_fail(&scene->error, WEIR_ERROR_INPUT,
@@ -94,7 +94,7 @@ static WeirStatus check_count(WeirScene *scene)
     double spacing = scene->parameters.particle_spacing, total = 0.0;
     for (uint32_t n = 0; n < scene->fluid_count; ++n) {
         Lattice lattice = fluid_lattice(&scene->fluid[n], spacing);
-        double share = scene->fluid[n].shape == WEIR_SHAPE_BALL ? 0.78 : 1.0;
+        double share = scene->fluid[n].shape.kind == WEIR_SHAPE_BALL ? 0.78 : 1.0;
         total += share * (double)lattice.sites[0] * (double)lattice.sites[1];
     }
     if (total > WEIR_MAX_PARTICLES) {
@@ -137,15 +137,15 @@ static WeirStatus check_values(WeirScene *scene)
 
 // Does particle `i` of one piece lie on a site of piece `other`? Lattices may be shifted against each other,
 // so half a spacing of distance to the other piece's outermost sites is asked for.
-static bool overlaps(const WeirFluid *other, double spacing, const float *position)
+static bool overlaps(const WeirFluid *other, double spacing, const double *position)
 {
     double x = position[0], y = position[1], gap = 0.49 * spacing;
-    if (other->shape == WEIR_SHAPE_BALL) {
-        double dx = x - other->center[0], dy = y - other->center[1], r = other->radius - gap;
+    if (other->shape.kind == WEIR_SHAPE_BALL) {
+        double dx = x - other->shape.center[0], dy = y - other->shape.center[1], r = other->shape.radius - gap;
         return r > 0.0 && dx * dx + dy * dy < r * r;
     }
-    return x > other->min[0] + 0.02 * spacing && x < other->max[0] - 0.02 * spacing &&
-           y > other->min[1] + 0.02 * spacing && y < other->max[1] - 0.02 * spacing;
+    return x > other->shape.min[0] + 0.02 * spacing && x < other->shape.max[0] - 0.02 * spacing &&
+           y > other->shape.min[1] + 0.02 * spacing && y < other->shape.max[1] - 0.02 * spacing;
 }
 
 static WeirStatus check_overlap(WeirScene *scene, const WeirParticles *particles, const uint64_t first[])
@@ -167,21 +167,32 @@ static WeirStatus check_overlap(WeirScene *scene, const WeirParticles *particles
     return WEIR_OK;
 }
 
+static void free_particles(WeirParticles *particles)
+{
+    free(particles->position);
+    free(particles->velocity);
+    free(particles->density);
+    free(particles->group);
+    *particles = (WeirParticles){0};
+}
+
 static WeirStatus allocate(WeirScene *scene, WeirParticles *particles, uint64_t count)
 {
     particles->count = (uint32_t)count;
-    particles->position = malloc(count * 2 * sizeof(float));
+    particles->dimension = 2;
+    particles->fluid_slots = (uint32_t)count;
+    particles->position = malloc(count * 2 * sizeof(double));
     particles->velocity = malloc(count * 2 * sizeof(float));
     if (particles->position && particles->velocity) return WEIR_OK;
-    weir_particles_free(particles);
+    free_particles(particles);
     return weir_fail(
         &scene->error, WEIR_ERROR_MEMORY,
         "%llu particles need %llu MB more than there is; raise parameters.particle_spacing (now %g m)",
-        (unsigned long long)count, (unsigned long long)(count * 16 >> 20),
+        (unsigned long long)count, (unsigned long long)(count * 24 >> 20),
         scene->parameters.particle_spacing);
 }
 
-WeirStatus weir_scene_make_particles(WeirScene *scene, WeirParticles *particles)
+static WeirStatus make_particles(WeirScene *scene, WeirParticles *particles)
 {
     double spacing = scene->parameters.particle_spacing;
     uint64_t first[WEIR_MAX_FLUIDS + 1] = {0};
@@ -201,31 +212,41 @@ WeirStatus weir_scene_make_particles(WeirScene *scene, WeirParticles *particles)
     for (uint32_t n = 0; n < scene->fluid_count; ++n)
         fill_fluid(&scene->fluid[n], spacing, first[n], particles);
     status = check_overlap(scene, particles, first);
-    if (status) weir_particles_free(particles);
+    if (status) free_particles(particles);
     if (!status) weir_scene_advise(scene);
     return status;
 }
 
-void weir_particles_free(WeirParticles *particles)
+WeirStatus weir_scene_make_world(WeirScene *scene, WeirWorld *world)
 {
-    free(particles->position);
-    free(particles->velocity);
-    *particles = (WeirParticles){0};
+    *world = (WeirWorld){0};
+    return make_particles(scene, &world->particles);
+}
+
+void weir_world_free(WeirWorld *world)
+{
+    free_particles(&world->particles);
+    free(world->solids);
+    free(world->motion);
+    free(world->emitters);
+    free(world->points);
+    free(world->drains);
+    *world = (WeirWorld){0};
 }
 
 WeirStatus weir_scene_check(WeirScene *scene)
 {
-    WeirParticles particles;
-    WeirStatus status = weir_scene_make_particles(scene, &particles);
-    weir_particles_free(&particles);
+    WeirWorld world;
+    WeirStatus status = weir_scene_make_world(scene, &world);
+    weir_world_free(&world);
     return status;
 }
 
 uint32_t weir_scene_particle_count(WeirScene *scene)
 {
-    WeirParticles particles;
-    if (weir_scene_make_particles(scene, &particles)) return 0;
-    uint32_t count = particles.count;
-    weir_particles_free(&particles);
+    WeirWorld world;
+    if (weir_scene_make_world(scene, &world)) return 0;
+    uint32_t count = world.particles.count;
+    weir_world_free(&world);
     return count;
 }

@@ -46,8 +46,7 @@ const char *weir_scene_title(const WeirScene *scene)
 
 const char *weir_scene_method(const WeirScene *scene)
 {
-    (void)scene;
-    return "mueller";
+    return scene->method == WEIR_METHOD_WCSPH ? "wcsph" : "mueller";
 }
 
 uint32_t weir_scene_dimension(const WeirScene *scene)

@@ -97,30 +97,30 @@ static WeirStatus set_radius(WeirScene *scene, const char *path, const Value *va
 static WeirStatus set_fluid_key(WeirScene *scene, WeirFluid *fluid, const char *path, const char *key,
                                 const Value *value)
 {
-    WeirShape shape = skip(key, "box.")    ? WEIR_SHAPE_BOX
+    WeirShapeKind shape = skip(key, "box.")    ? WEIR_SHAPE_BOX
                       : skip(key, "ball.") ? WEIR_SHAPE_BALL
                                            : WEIR_SHAPE_NONE;
-    if (shape != WEIR_SHAPE_NONE && fluid->shape != WEIR_SHAPE_NONE && fluid->shape != shape) {
+    if (shape != WEIR_SHAPE_NONE && fluid->shape.kind != WEIR_SHAPE_NONE && fluid->shape.kind != shape) {
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
                          "%.80s: this piece of fluid is a box and a ball; must be one of them", path);
     }
-    if (shape != WEIR_SHAPE_NONE) fluid->shape = shape;
+    if (shape != WEIR_SHAPE_NONE) fluid->shape.kind = shape;
     if (strcmp(key, "velocity") == 0) return set_vector(scene, path, value, speed_limit, fluid->velocity);
     if (strcmp(key, "box.min") == 0) {
-        fluid->has_min = true;
-        return set_vector(scene, path, value, coordinate_limit, fluid->min);
+        fluid->shape.has_min = true;
+        return set_vector(scene, path, value, coordinate_limit, fluid->shape.min);
     }
     if (strcmp(key, "box.max") == 0) {
-        fluid->has_max = true;
-        return set_vector(scene, path, value, coordinate_limit, fluid->max);
+        fluid->shape.has_max = true;
+        return set_vector(scene, path, value, coordinate_limit, fluid->shape.max);
     }
     if (strcmp(key, "ball.center") == 0) {
-        fluid->has_center = true;
-        return set_vector(scene, path, value, coordinate_limit, fluid->center);
+        fluid->shape.has_center = true;
+        return set_vector(scene, path, value, coordinate_limit, fluid->shape.center);
     }
     if (strcmp(key, "ball.radius") == 0) {
-        fluid->has_radius = true;
-        return set_radius(scene, path, value, &fluid->radius);
+        fluid->shape.has_radius = true;
+        return set_radius(scene, path, value, &fluid->shape.radius);
     }
     if (strcmp(key, "box") == 0 || strcmp(key, "ball") == 0) {
         return wrong_type(scene, path, value, "an object with min and max, or center and radius");

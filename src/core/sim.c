@@ -1,7 +1,7 @@
 // A simulation: a scene's particles on a solver, its clock, its health and what may be read of it.
 #include "core/sim.h"
 #include "core/diagnostics.h"
-#include "core/kernel.h"
+#include "core/grid.h"
 #include "core/scene.h"
 
 #include <math.h>
@@ -9,20 +9,25 @@
 #include <string.h>
 
 enum { DEFAULT_MAX_STEPS = 64 };
+// Steps that weir_sim_run_until() queues between two looks at clock and health.
+static const double MOST_QUEUED = 100.0;
 static const double default_max_lag = 0.1; // s: a frame later than this is a stall, not a slow frame
 
 struct WeirSim {
     WeirScene *scene;
+    WeirParameters parameters; // as the solver takes them: weir_scene_resolved()
     WeirConstants constants;
     WeirTool tool;
     const WeirBackend *backend;
     WeirSolver *solver;
     WeirStatus status;
     WeirMessage error, warning;
-    uint32_t particle_count;
+    uint32_t particle_count, fluid_slots, solid_count;
+    WeirHealth health; // as last polled
     uint64_t steps;       // since the last reset
     uint64_t steps_given; // of these, taken before the solver's state was last replaced
     double time;
+    double time_given; // the same for the time
     uint32_t max_steps;
     double max_lag;
     double owed; // simulated seconds that the accumulator holds
@@ -45,25 +50,35 @@ static WeirStatus pass_on(WeirSim *sim, WeirStatus status)
     return status;
 }
 
+static void make_constants(WeirSim *sim)
+{
+    const WeirScene *scene = sim->scene;
+    sim->parameters = weir_scene_resolved(scene);
+    weir_constants_make(&sim->constants, scene, &sim->parameters, sim->particle_count, &sim->tool);
+    sim->constants.first_solid = sim->fluid_slots;
+    sim->constants.solid_count = sim->solid_count;
+}
+
 static WeirStatus start(WeirSim *sim, uint32_t threads)
 {
-    WeirParticles particles;
-    WeirStatus status = weir_scene_make_particles(sim->scene, &particles);
+    WeirWorld world;
+    WeirStatus status = weir_scene_make_world(sim->scene, &world);
     if (status) return stop(sim, status, &sim->scene->error);
     sim->warning = sim->scene->warning;
-    sim->particle_count = particles.count;
-    weir_constants_make(&sim->constants, &sim->scene->parameters, sim->scene->dimension,
-                        sim->scene->domain_min, sim->scene->domain_max, particles.count, &sim->tool);
+    sim->particle_count = world.particles.count;
+    sim->fluid_slots = world.particles.fluid_slots;
+    sim->solid_count = world.solid_count;
+    make_constants(sim);
     WeirSolverSetup setup = {
-        .parameters = sim->scene->parameters,
+        .method = sim->scene->method,
+        .parameters = sim->parameters,
         .constants = sim->constants,
-        .position = particles.position,
-        .velocity = particles.velocity,
+        .world = &world,
         .threads = threads,
     };
     WeirMessage message = {""};
     sim->solver = sim->backend->create_solver(sim->backend, &setup, &status, &message);
-    weir_particles_free(&particles);
+    weir_world_free(&world);
     return sim->solver ? WEIR_OK : stop(sim, status, &message);
 }
 
@@ -129,6 +144,16 @@ uint32_t weir_sim_particle_count(const WeirSim *sim)
     return sim->particle_count;
 }
 
+uint32_t weir_sim_fluid_slots(const WeirSim *sim)
+{
+    return sim->fluid_slots;
+}
+
+uint32_t weir_sim_dimension(const WeirSim *sim)
+{
+    return sim->scene->dimension;
+}
+
 uint64_t weir_sim_step_count(const WeirSim *sim)
 {
     return sim->steps;
@@ -151,7 +176,7 @@ WeirSolver *weir_sim_solver(WeirSim *sim)
 
 const WeirParameters *weir_sim_parameters(const WeirSim *sim)
 {
-    return &sim->scene->parameters;
+    return &sim->parameters;
 }
 
 const WeirConstants *weir_sim_constants(const WeirSim *sim)
@@ -161,16 +186,63 @@ const WeirConstants *weir_sim_constants(const WeirSim *sim)
 
 // ---- Time ----
 
-WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps)
+// `until`: seconds since the scene's start, INFINITY for none.
+static WeirStatus take_steps(WeirSim *sim, uint32_t steps, double until)
 {
     if (sim->status) return sim->status;
     if (steps == 0) return WEIR_OK;
     sim->state_is_current = false;
-    WeirStatus status = pass_on(sim, sim->solver->interface->step(sim->solver, steps));
+    double solver_time = until - sim->time_given;
+    WeirStatus status = pass_on(sim, sim->solver->interface->step(sim->solver, steps, solver_time));
     if (status) return status;
-    sim->steps += steps;
-    sim->time += steps * (double)sim->scene->parameters.time_step;
+    if (sim->scene->method == WEIR_METHOD_MUELLER) {
+        sim->steps += steps;
+        sim->time += steps * (double)sim->parameters.time_step;
+    }
     return weir_sim_poll(sim);
+}
+
+WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps)
+{
+    return take_steps(sim, steps, INFINITY);
+}
+
+static double current_time_step(const WeirSim *sim)
+{
+    bool adaptive = sim->health.has_clock && sim->health.time_step > 0.0f;
+    return adaptive ? sim->health.time_step : (double)sim->parameters.time_step;
+}
+
+WeirStatus weir_sim_run_until(WeirSim *sim, double time)
+{
+    if (sim->status) return sim->status;
+    bool clock = sim->scene->method == WEIR_METHOD_WCSPH;
+    // Fixed steps end at the one nearest to `time`.
+    double slack = clock ? 1e-9 * fmax(time, 1e-3) : 0.5 * (double)sim->parameters.time_step;
+    while (sim->time < time - slack) {
+        double due = ceil((time - sim->time - slack) / current_time_step(sim));
+        uint32_t steps = (uint32_t)fmin(fmax(due, 1.0), MOST_QUEUED);
+        WeirStatus status = take_steps(sim, steps, clock ? time : INFINITY);
+        if (status == WEIR_OK) status = weir_sim_wait(sim);
+        if (status) return status;
+    }
+    return WEIR_OK;
+}
+
+WeirClock weir_sim_clock(const WeirSim *sim)
+{
+    WeirClock clock = {.step = sim->steps, .time = sim->time, .time_step = current_time_step(sim)};
+    clock.sound_speed = clock.max_speed = clock.mach_number = clock.max_density_error = NAN;
+    clock.fluid_particles = sim->fluid_slots;
+    if (!sim->health.has_clock) return clock;
+    clock.sound_speed = sim->constants.sound_speed;
+    clock.max_speed = sim->health.max_speed;
+    clock.mach_number = clock.max_speed / clock.sound_speed;
+    clock.max_density_error = sim->health.max_density_error;
+    clock.fluid_particles = sim->health.fluid_particles;
+    clock.drained_particles = sim->health.drained_particles;
+    clock.lost_particles = sim->health.lost_particles;
+    return clock;
 }
 
 void weir_sim_set_max_steps(WeirSim *sim, uint32_t max_steps)
@@ -187,7 +259,7 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     if (!(wall_seconds >= 0.0)) {
         return weir_fail(&sim->error, WEIR_ERROR_INPUT, "wall_seconds: %g; must be 0 or more", wall_seconds);
     }
-    double scale = sim->scene->parameters.time_scale, dt = sim->scene->parameters.time_step;
+    double scale = sim->parameters.time_scale, dt = current_time_step(sim);
     // Only new time is cut: what is left of the last call is less than a step, and slow motion or a long step
     // must be able to save up for one.
     sim->owed += fmin(wall_seconds, sim->max_lag) * scale;
@@ -202,6 +274,20 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     return status;
 }
 
+static WeirStatus blown_up(WeirSim *sim)
+{
+    const WeirHealth *health = &sim->health;
+    const float *place = health->first_bad_position;
+    return sim->status = weir_fail(
+               &sim->error, WEIR_ERROR_UNSTABLE,
+               "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than the speed of sound, "
+               "%.3g m/s, or not finite. %s",
+               (unsigned long long)(sim->steps_given + health->first_bad_step), health->first_bad_id, place[0],
+               place[1], place[2], sim->constants.sound_speed,
+               sim->parameters.stepping ? "Use stepping adaptive, or a smaller time_step"
+                                        : "Lower courant, or raise expected_speed or sound_speed");
+}
+
 WeirStatus weir_sim_poll(WeirSim *sim)
 {
     if (sim->status) return sim->status;
@@ -209,8 +295,14 @@ WeirStatus weir_sim_poll(WeirSim *sim)
     WeirStatus status = sim->solver->interface->poll(sim->solver, &health);
     if (status == WEIR_PENDING) return WEIR_PENDING;
     if (status) return stop(sim, status, &sim->solver->message);
+    sim->health = health;
+    if (health.has_clock) {
+        sim->steps = sim->steps_given + health.steps;
+        sim->time = sim->time_given + health.time;
+    }
     if (health.bad_particles == 0) return WEIR_OK;
-    const WeirParameters *parameters = &sim->scene->parameters;
+    if (health.has_clock) return blown_up(sim);
+    const WeirParameters *parameters = &sim->parameters;
     double stable = weir_scene_stable_time_step(sim->scene);
     return sim->status = weir_fail(
                &sim->error, WEIR_ERROR_UNSTABLE,
@@ -230,12 +322,14 @@ WeirStatus weir_sim_wait(WeirSim *sim)
 
 // ---- State and parameters ----
 
-static WeirStatus replace_state(WeirSim *sim, const float *position, const float *velocity)
+static WeirStatus replace_state(WeirSim *sim, const WeirParticles *particles)
 {
     sim->state_is_current = false;
-    WeirStatus status = pass_on(sim, sim->solver->interface->set_state(sim->solver, position, velocity));
+    WeirStatus status = pass_on(sim, sim->solver->interface->set_state(sim->solver, particles));
     if (status) return status;
     sim->steps_given = sim->steps;
+    sim->time_given = sim->time;
+    sim->health = (WeirHealth){0};
     if (sim->status == WEIR_ERROR_UNSTABLE) sim->status = WEIR_OK;
     return WEIR_OK;
 }
@@ -243,44 +337,60 @@ static WeirStatus replace_state(WeirSim *sim, const float *position, const float
 WeirStatus weir_sim_reset(WeirSim *sim)
 {
     if (!sim->solver || sim->status == WEIR_ERROR_DEVICE) return sim->status;
-    WeirParticles particles;
-    WeirStatus status = weir_scene_make_particles(sim->scene, &particles);
+    WeirWorld world;
+    WeirStatus status = weir_scene_make_world(sim->scene, &world);
     if (status) {
         sim->error = sim->scene->error;
         return status;
     }
     sim->steps = 0;
     sim->time = sim->owed = 0.0;
-    status = replace_state(sim, particles.position, particles.velocity);
-    weir_particles_free(&particles);
+    status = replace_state(sim, &world.particles);
+    weir_world_free(&world);
     return status;
+}
+
+static WeirStatus check_state(WeirSim *sim, const float *positions, const float *velocities)
+{
+    const WeirConstants *constants = &sim->constants;
+    uint32_t dimension = sim->scene->dimension;
+    for (size_t k = 0; k < dimension * (size_t)sim->fluid_slots; ++k) {
+        size_t axis = k % dimension;
+        if (!(positions[k] >= constants->domain_min[axis] && positions[k] <= constants->domain_max[axis])) {
+            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                             "positions: particle %zu has %c = %g; the domain allows %g to %g", k / dimension,
+                             "xyz"[axis], (double)positions[k], (double)constants->domain_min[axis],
+                             (double)constants->domain_max[axis]);
+        }
+        if (!isfinite(velocities[k])) {
+            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
+                             "velocities: particle %zu has v%c = %g; must be finite", k / dimension,
+                             "xyz"[axis], (double)velocities[k]);
+        }
+    }
+    return WEIR_OK;
 }
 
 WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float *velocities)
 {
     if (!sim->solver || sim->status == WEIR_ERROR_DEVICE) return sim->status;
-    const WeirConstants *constants = &sim->constants;
-    for (size_t k = 0; k < 2 * (size_t)sim->particle_count; ++k) {
-        int axis = (int)(k % 2);
-        if (!(positions[k] >= constants->domain_min[axis] && positions[k] <= constants->domain_max[axis])) {
-            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
-                             "positions: particle %zu has %c = %g; the domain allows %g to %g", k / 2,
-                             "xy"[axis], positions[k], constants -> domain_min[axis],
-                             constants -> domain_max[axis]);
-        }
-        if (!isfinite(velocities[k])) {
-            return weir_fail(&sim->error, WEIR_ERROR_INPUT,
-                             "velocities: particle %zu has v%c = %g; must be finite", k / 2, "xy"[axis],
-                             velocities[k]);
-        }
-    }
-    return replace_state(sim, positions, velocities);
+    WeirStatus status = check_state(sim, positions, velocities);
+    if (status) return status;
+    WeirWorld world;
+    status = weir_scene_make_world(sim->scene, &world);
+    if (status) return stop(sim, status, &sim->scene->error);
+    size_t floats = sim->scene->dimension * (size_t)sim->fluid_slots;
+    for (size_t k = 0; k < floats; ++k) world.particles.position[k] = positions[k];
+    memcpy(world.particles.velocity, velocities, floats * sizeof *velocities);
+    status = replace_state(sim, &world.particles);
+    weir_world_free(&world);
+    return status;
 }
 
 static WeirStatus configure(WeirSim *sim)
 {
     return pass_on(sim,
-                   sim->solver->interface->configure(sim->solver, &sim->scene->parameters, &sim->constants));
+                   sim->solver->interface->configure(sim->solver, &sim->parameters, &sim->constants));
 }
 
 WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *values, size_t count)
@@ -301,8 +411,7 @@ WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *
     if (status) return status;
     sim->state_is_current = false;
     sim->scene->parameters = changed;
-    weir_constants_make(&sim->constants, &changed, sim->scene->dimension, sim->scene->domain_min,
-                        sim->scene->domain_max, sim->particle_count, &sim->tool);
+    make_constants(sim);
     weir_scene_advise(sim->scene);
     sim->warning = sim->scene->warning;
     return configure(sim);
@@ -315,7 +424,7 @@ static WeirStatus check_tool(WeirSim *sim, const WeirTool *tool)
                          (int)tool->kind);
     }
     bool finite = isfinite(tool->strength);
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < 3; ++axis)
         finite = finite && isfinite(tool->position[axis]) && isfinite(tool->velocity[axis]);
     if (!finite) {
         return weir_fail(&sim->error, WEIR_ERROR_INPUT,
@@ -351,15 +460,15 @@ WeirStatus weir_sim_state(WeirSim *sim, WeirState *state)
     return WEIR_OK;
 }
 
-uint32_t weir_field_components(WeirField field)
+uint32_t weir_field_components(WeirField field, uint32_t dimension)
 {
-    return field == WEIR_FIELD_DENSITY || field == WEIR_FIELD_PRESSURE ? 1 : 2;
+    return (uint32_t)field <= WEIR_FIELD_ACCELERATION ? dimension : 1;
 }
 
 WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t capacity)
 {
-    size_t floats = (size_t)sim->particle_count * weir_field_components(field);
-    if ((uint32_t)field > WEIR_FIELD_PRESSURE) {
+    size_t floats = (size_t)sim->particle_count * weir_field_components(field, sim->scene->dimension);
+    if ((uint32_t)field > WEIR_FIELD_GROUP) {
         return weir_fail(&sim->error, WEIR_ERROR_INPUT, "field: %d; must be a WeirField", (int)field);
     }
     if (capacity < floats) {
@@ -369,6 +478,14 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
     WeirState state;
     WeirStatus status = weir_sim_state(sim, &state);
     if (status) return status;
+    if (field == WEIR_FIELD_GROUP) {
+        for (uint32_t i = 0; i < state.count; ++i) {
+            uint32_t group = state.group ? state.group[i] : WEIR_GROUP_FLUID;
+            bool empty = group == WEIR_GROUP_EMPTY;
+            values[i] = empty ? -1.0f : weir_group_is_solid(group) ? (float)group : 0.0f;
+        }
+        return WEIR_OK;
+    }
     const float *const fields[] = {
         [WEIR_FIELD_POSITION] = state.position,         [WEIR_FIELD_VELOCITY] = state.velocity,
         [WEIR_FIELD_ACCELERATION] = state.acceleration, [WEIR_FIELD_DENSITY] = state.density,
@@ -383,10 +500,12 @@ WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics
     WeirState state;
     WeirStatus status = weir_sim_state(sim, &state);
     if (status) return status;
-    status = weir_diagnose(&state, &sim->scene->parameters, &sim->constants, count_neighbors, diagnostics);
+    status = weir_diagnose(&state, &sim->parameters, &sim->constants, count_neighbors, diagnostics);
     if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
     diagnostics->step = state.step;
-    diagnostics->time = sim->time - (double)(sim->steps - state.step) * sim->scene->parameters.time_step;
+    diagnostics->time = state.time >= 0.0
+                            ? sim->time_given + state.time
+                            : sim->time - (double)(sim->steps - state.step) * sim->parameters.time_step;
     return WEIR_OK;
 }
 

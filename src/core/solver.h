@@ -5,25 +5,40 @@
 // must follow it pass by pass.
 #pragma once
 
-#include "core/parameters.h"
+#include "core/world.h"
 
 typedef struct WeirSolver WeirSolver;
 
 // Particle data on the host, ordered by id; owned by the solver, valid until its next call.
 typedef struct WeirState {
     uint32_t count;
+    uint32_t dimension;        // 2 or 3: components of the vectors below
     uint64_t step;             // steps taken when the copy was made
-    const float *position;     // x, y per particle, m
-    const float *velocity;     // x, y per particle, m/s
-    const float *acceleration; // x, y per particle, m/s^2, at these positions
+    const float *position;     // m
+    const float *velocity;     // m/s
+    const float *acceleration; // m/s^2, at these positions
     const float *density;      // kg/m^3, at these positions
-    const float *pressure;     // Pa, at these positions
+    const float *pressure;     // Pa, at these positions; of solid particles extrapolated from the fluid
+    const uint32_t *group;     // WEIR_GROUP_...; NULL: all fluid
+    const WeirSolidState *solids; // NULL: none
+    double time;                  // s since set_state(); negative: steps of one length (mueller)
 } WeirState;
 
-// What the integrate pass found since the last reset.
+// What the solver found since set_state().
 typedef struct WeirHealth {
     uint32_t bad_particles;  // faster than constants.speed_limit or not finite, counted over all steps
     uint64_t first_bad_step; // 1-based step that found the first of them; valid if bad_particles > 0
+    uint32_t first_bad_id;   // wcsph: the lowest id among that step's
+    float first_bad_position[3];
+    // wcsph only (has_clock), as of the last step known:
+    bool has_clock;
+    uint64_t steps;
+    double time;
+    float time_step;         // s, of the next step
+    float max_speed;         // m/s, of the fluid
+    float max_density_error; // largest |rho / rho0 - 1| of the fluid, less the background's share
+    uint32_t fluid_particles;
+    uint32_t drained_particles, lost_particles; // since set_state(): by drains; through the domain's sides
 } WeirHealth;
 
 typedef struct WeirSolverInterface {
@@ -31,9 +46,11 @@ typedef struct WeirSolverInterface {
     // New parameters or constants (same particle count); they hold from the next step on.
     WeirStatus (*configure)(WeirSolver *solver, const WeirParameters *parameters,
                             const WeirConstants *constants);
-    // Replaces positions and velocities (ordered by id) and resets step count and health.
-    WeirStatus (*set_state)(WeirSolver *solver, const float *position, const float *velocity);
-    WeirStatus (*step)(WeirSolver *solver, uint32_t steps);
+    // Replaces the particles (same count, same solids) and resets step count, clock and health.
+    WeirStatus (*set_state)(WeirSolver *solver, const WeirParticles *particles);
+    // Takes `steps` steps. wcsph: the step that would pass the time `until` (s since set_state(); INFINITY: none)
+    // is shortened to end there, and the remaining ones do nothing and do not count.
+    WeirStatus (*step)(WeirSolver *solver, uint32_t steps, double until);
     // Lets callbacks run, gives what is known of the particles' health, and the error that stopped
     // the device.
     WeirStatus (*poll)(WeirSolver *solver, WeirHealth *health);
@@ -53,12 +70,14 @@ struct WeirSolver {
     WeirMessage message; // of the last call that failed
 };
 
+typedef enum WeirMethod { WEIR_METHOD_MUELLER, WEIR_METHOD_WCSPH } WeirMethod;
+
 typedef struct WeirSolverSetup {
+    WeirMethod method;
     WeirParameters parameters;
     WeirConstants constants;
-    const float *position; // particle_count * 2, copied
-    const float *velocity;
-    uint32_t threads; // as in WeirSimOptions
+    const WeirWorld *world; // copied
+    uint32_t threads;       // as in WeirSimOptions
 } WeirSolverSetup;
 
 struct WeirBackend {

@@ -5,7 +5,7 @@
 //
 // The first error is kept: what follows a lost device or a failed shader is only noise.
 #include "gpu/device.h"
-#include "gpu/mueller.h"
+#include "gpu/solvers.h"
 #include "gpu/platform.h"
 
 #include <stdio.h>
@@ -179,7 +179,7 @@ WeirGpu *weir_gpu_create(const WeirGpuOptions *options)
     if (!gpu) return NULL;
     if (options) gpu->options = *options;
     gpu->status = WEIR_PENDING;
-    gpu->backend = (WeirGpuBackend){weir_mueller_backend, gpu};
+    gpu->backend = (WeirGpuBackend){{.name = "gpu", .create_solver = weir_gpu_create_solver}, gpu};
     gpu->instance = weir_platform_create_instance();
     if (!gpu->instance) {
         fail(gpu, WEIR_ERROR_DEVICE, "WebGPU is not available here; use the CPU backend",

@@ -4,6 +4,7 @@
 // Steps are batched: one compute pass holds as many as a submit may take, with no work for the queue in
 // between. Between steps cell_count and the heads of cell_link are zero (density empties them).
 #include "gpu/mueller.h"
+#include "gpu/solvers.h"
 #include "core/sim.h"
 #include "gpu/platform.h"
 
@@ -122,8 +123,9 @@ static void submit_steps(WeirMueller *solver, uint32_t steps, bool measured)
     ++solver->work;
 }
 
-static WeirStatus step(WeirSolver *base, uint32_t steps)
+static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
+    (void)until; // steps of one length: the caller counts them
     WeirMueller *solver = (WeirMueller *)base;
     uint32_t most = steps_per_submit(solver);
     weir_profile_poll(solver->profile);
@@ -198,27 +200,35 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     return WEIR_OK;
 }
 
-static WeirStatus write_ids(WeirMueller *solver)
+// Ids in order, and the positions rounded once.
+static WeirStatus write_particles(WeirMueller *solver, const WeirParticles *particles)
 {
     uint32_t count = solver->constants.particle_count;
     uint32_t *id = malloc(count * sizeof *id);
-    if (!id) return weir_fail(&solver->base.message, WEIR_ERROR_MEMORY, "no memory for %u ids", count);
-    for (uint32_t i = 0; i < count; ++i) id[i] = i;
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_id, id, count * sizeof *id);
+    float *position = malloc(2 * (size_t)count * sizeof *position);
+    WeirStatus status = id && position ? WEIR_OK : WEIR_ERROR_MEMORY;
+    if (status == WEIR_OK) {
+        for (uint32_t i = 0; i < count; ++i) id[i] = i;
+        for (size_t k = 0; k < 2 * (size_t)count; ++k) position[k] = (float)particles->position[k];
+        weir_buffers_write(&solver->buffers, WEIR_BUFFER_id, id, count * sizeof *id);
+        weir_buffers_write(&solver->buffers, WEIR_BUFFER_position, position,
+                           2 * (size_t)count * sizeof *position);
+    }
     free(id);
-    return WEIR_OK;
+    free(position);
+    return status == WEIR_OK ? status
+                             : weir_fail(&solver->base.message, status, "no memory for %u particles", count);
 }
 
-static WeirStatus set_state(WeirSolver *base, const float *position, const float *velocity)
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
 {
     WeirMueller *solver = (WeirMueller *)base;
     WeirStatus status = weir_mueller_check(solver);
-    if (status == WEIR_OK) status = write_ids(solver);
+    if (status == WEIR_OK) status = write_particles(solver, particles);
     if (status != WEIR_OK) return status;
     size_t bytes = 2 * sizeof(float) * (size_t)solver->constants.particle_count;
     WeirDeviceHealth health = {.first_bad_step = UINT32_MAX};
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_position, position, bytes);
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_velocity, velocity, bytes);
+    weir_buffers_write(&solver->buffers, WEIR_BUFFER_velocity, particles->velocity, bytes);
     weir_buffers_write(&solver->buffers, WEIR_BUFFER_health, &health, sizeof health);
     solver->steps = solver->device_step = 0;
     solver->health = (WeirHealth){0};
@@ -310,17 +320,14 @@ static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMe
         .gpu = gpu, .buffers = &solver->buffers, .particle_count = setup->constants.particle_count};
     solver->profile = weir_profile_create(gpu, solver->report);
     status = configure(&solver->base, &setup->parameters, &setup->constants);
-    if (status == WEIR_OK) status = set_state(&solver->base, setup->position, setup->velocity);
+    if (status == WEIR_OK) status = set_state(&solver->base, &setup->world->particles);
     if (status != WEIR_OK) *message = solver->base.message;
     return status;
 }
 
-static WeirSolver *create_solver(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
-                                 WeirMessage *message)
+WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
+                                    WeirMessage *message)
 {
-    WeirGpu *gpu = ((const WeirGpuBackend *)backend)->gpu;
-    *status = weir_gpu_check(gpu, message);
-    if (*status != WEIR_OK) return NULL;
     WeirMueller *solver = calloc(1, sizeof *solver);
     if (!solver) {
         *status = weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
@@ -334,8 +341,6 @@ static WeirSolver *create_solver(const WeirBackend *backend, const WeirSolverSet
     destroy(&solver->base);
     return NULL;
 }
-
-const WeirBackend weir_mueller_backend = {.name = "gpu", .create_solver = create_solver};
 
 bool weir_gpu_particles(WeirSim *sim, WeirGpuParticles *particles)
 {

@@ -5,9 +5,6 @@
 #include "gpu/profile.h"
 #include "gpu/readback.h"
 
-// First member of a WeirGpuBackend.
-extern const WeirBackend weir_mueller_backend;
-
 typedef struct WeirMueller {
     WeirSolver base;
     WeirGpu *gpu;

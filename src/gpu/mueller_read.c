@@ -78,7 +78,17 @@ static WeirState order_by_id(const WeirMueller *solver, const void *copy)
         density[id] = from_flow[4 * i + 2];
         pressure[id] = from_flow[4 * i + 3];
     }
-    return (WeirState){count, solver->state_copy_step, position, velocity, acceleration, density, pressure};
+    return (WeirState){
+        .count = count,
+        .dimension = 2,
+        .step = solver->state_copy_step,
+        .position = position,
+        .velocity = velocity,
+        .acceleration = acceleration,
+        .density = density,
+        .pressure = pressure,
+        .time = -1.0,
+    };
 }
 
 WeirStatus weir_mueller_read(WeirSolver *base, WeirState *state)

@@ -190,7 +190,7 @@ static void reading_needs_room(const WeirBackend *backend)
     WeirSim *sim = weir_test_sim(scene, backend, 1);
     float values[8];
     for (int field = WEIR_FIELD_POSITION; field <= WEIR_FIELD_PRESSURE; ++field) {
-        uint32_t needed = 4 * weir_field_components((WeirField)field);
+        uint32_t needed = 4 * weir_field_components((WeirField)field, 2);
         for (int k = 0; k < 8; ++k) values[k] = -7;
         CHECK_SIM(sim, weir_sim_read(sim, (WeirField)field, values, needed - 1), WEIR_ERROR_INPUT);
         char number[16];

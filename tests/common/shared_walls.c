@@ -27,18 +27,21 @@ static void throw_at_walls(const WeirBackend *backend, double speed, double rest
     weir_test_set(scene, "restitution", restitution);
     weir_test_set(scene, "time_step", time_step);
     WeirSim *sim = weir_test_sim(scene, backend, 1);
-    float position[2 * WALL_COUNT], velocity[2 * WALL_COUNT];
+    double position[2 * WALL_COUNT];
+    float velocity[2 * WALL_COUNT];
     static const float starts[4][2] = {{1, 1}, {0.001f, 1.999f}, {2, 1}, {0, 0}};
     for (int i = 0; i < WALL_COUNT; ++i) {
         double angle = (i % DIRECTIONS) * 6.283185307 / DIRECTIONS;
         position[2 * i] = starts[i / DIRECTIONS][0], position[2 * i + 1] = starts[i / DIRECTIONS][1];
         velocity[2 * i] = (float)(speed * cos(angle)), velocity[2 * i + 1] = (float)(speed * sin(angle));
     }
+    WeirParticles particles = {
+        .dimension = 2, .count = WALL_COUNT, .position = position, .velocity = velocity};
     WeirSolver *solver = weir_sim_solver(sim);
     assert_non_null(solver);
-    assert_int_equal(solver->interface->set_state(solver, position, velocity), WEIR_OK);
+    assert_int_equal(solver->interface->set_state(solver, &particles), WEIR_OK);
     for (int step = 0; step < 12; ++step) {
-        assert_int_equal(solver->interface->step(solver, 1), WEIR_OK);
+        assert_int_equal(solver->interface->step(solver, 1, INFINITY), WEIR_OK);
         assert_int_equal(solver->interface->wait(solver), WEIR_OK);
         check_inside(solver, size);
     }

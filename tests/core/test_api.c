@@ -69,11 +69,13 @@ static void absurd_thread_counts_are_survived(void **state)
 static void field_components(void **state)
 {
     (void)state;
-    assert_int_equal(weir_field_components(WEIR_FIELD_POSITION), 2);
-    assert_int_equal(weir_field_components(WEIR_FIELD_VELOCITY), 2);
-    assert_int_equal(weir_field_components(WEIR_FIELD_ACCELERATION), 2);
-    assert_int_equal(weir_field_components(WEIR_FIELD_DENSITY), 1);
-    assert_int_equal(weir_field_components(WEIR_FIELD_PRESSURE), 1);
+    assert_int_equal(weir_field_components(WEIR_FIELD_POSITION, 2), 2);
+    assert_int_equal(weir_field_components(WEIR_FIELD_VELOCITY, 2), 2);
+    assert_int_equal(weir_field_components(WEIR_FIELD_ACCELERATION, 2), 2);
+    assert_int_equal(weir_field_components(WEIR_FIELD_DENSITY, 2), 1);
+    assert_int_equal(weir_field_components(WEIR_FIELD_PRESSURE, 2), 1);
+    assert_int_equal(weir_field_components(WEIR_FIELD_VELOCITY, 3), 3);
+    assert_int_equal(weir_field_components(WEIR_FIELD_GROUP, 3), 1);
     WeirScene *scene = weir_test_count_scene(1, 1, 0.05, 0.12);
     WeirSim *sim = weir_test_sim(scene, NULL, 1);
     float values[8];

@@ -136,7 +136,7 @@ static void try_to_run(WeirScene *scene)
     uint32_t few = 20000;
     double area = 0;
     for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        const WeirFluid *fluid = &scene->fluid[n];
+        const WeirShape *fluid = &scene->fluid[n].shape;
         area += fabs((fluid->max[0] - fluid->min[0]) * (fluid->max[1] - fluid->min[1]));
         area += 4 * fluid->radius * fluid->radius;
     }

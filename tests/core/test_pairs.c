@@ -50,7 +50,6 @@ static int compare_cells(const void *a, const void *b)
 // A dense clump, a thin spray and an empty part, so that vectors are cut at all lengths.
 static Fixture *make_fixture(uint32_t kernels, uint32_t search)
 {
-    static const double low[3] = {0, 0, 0}, high[3] = {2, 1, 0};
     static float drawn[4][COUNT];
     static uint64_t keys[COUNT];
     Fixture *fixture = calloc(1, sizeof *fixture);
@@ -61,7 +60,11 @@ static Fixture *make_fixture(uint32_t kernels, uint32_t search)
     fixture->parameters.particle_spacing = 0.02f;
     fixture->parameters.support_radius = 0.053f;
     fixture->parameters.negative_pressure = 0.3f;
-    weir_constants_make(&fixture->constants, &fixture->parameters, 2, low, high, COUNT, NULL);
+    WeirScene *scene = weir_scene_create();
+    assert_non_null(scene);
+    assert_int_equal(weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){2, 1, 0}), WEIR_OK);
+    weir_constants_make(&fixture->constants, scene, &fixture->parameters, COUNT, NULL);
+    weir_scene_destroy(scene);
     const WeirConstants *constants = &fixture->constants;
     fixture->cell_start = calloc((size_t)constants->cell_count + 1, sizeof(uint32_t));
     assert_non_null(fixture->cell_start);

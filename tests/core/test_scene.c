@@ -29,14 +29,14 @@ static void assert_same(const WeirScene *a, const WeirScene *b)
     assert_int_equal(a->fluid_count, b->fluid_count);
     for (uint32_t n = 0; n < a->fluid_count; ++n) {
         const WeirFluid *p = &a->fluid[n], *q = &b->fluid[n];
-        assert_int_equal(p->shape, q->shape);
-        assert_true(p->has_min == q->has_min && p->has_max == q->has_max && p->has_center == q->has_center &&
-                    p->has_radius == q->has_radius);
-        assert_memory_equal(p->min, q->min, sizeof p->min);
-        assert_memory_equal(p->max, q->max, sizeof p->max);
-        assert_memory_equal(p->center, q->center, sizeof p->center);
+        assert_int_equal(p->shape.kind, q->shape.kind);
+        assert_true(p->shape.has_min == q->shape.has_min && p->shape.has_max == q->shape.has_max && p->shape.has_center == q->shape.has_center &&
+                    p->shape.has_radius == q->shape.has_radius);
+        assert_memory_equal(p->shape.min, q->shape.min, sizeof p->shape.min);
+        assert_memory_equal(p->shape.max, q->shape.max, sizeof p->shape.max);
+        assert_memory_equal(p->shape.center, q->shape.center, sizeof p->shape.center);
         assert_memory_equal(p->velocity, q->velocity, sizeof p->velocity);
-        CHECK_NEAR(p->radius, q->radius, 0);
+        CHECK_NEAR(p->shape.radius, q->shape.radius, 0);
     }
 }
 

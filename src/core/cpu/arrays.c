@@ -67,12 +67,14 @@ WeirState weir_host_state(const WeirHostArrays *arrays, uint32_t count, uint64_t
 {
     return (WeirState){
         .count = count,
+        .dimension = 2,
         .step = step,
         .position = arrays->position,
         .velocity = arrays->velocity,
         .acceleration = arrays->acceleration,
         .density = arrays->density,
         .pressure = arrays->pressure,
+        .time = -1.0,
     };
 }
 

@@ -12,6 +12,7 @@
 #include "core/cpu/arrays.h"
 #include "core/cpu/pairs.h"
 #include "core/cpu/pool.h"
+#include "core/cpu/solvers.h"
 #include "core/grid.h"
 
 #include <math.h>
@@ -336,8 +337,9 @@ static void evaluate(MuellerCpu *solver)
     solver->evaluated = true;
 }
 
-static WeirStatus step(WeirSolver *base, uint32_t steps)
+static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
+    (void)until; // steps of one length: the caller counts them
     MuellerCpu *solver = (MuellerCpu *)base;
     for (uint32_t n = 0; n < steps; ++n) {
         evaluate(solver);
@@ -398,14 +400,14 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     return WEIR_OK;
 }
 
-static WeirStatus set_state(WeirSolver *base, const float *position, const float *velocity)
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
 {
     MuellerCpu *solver = (MuellerCpu *)base;
     for (uint32_t i = 0; i < solver->constants.particle_count; ++i) {
-        solver->state.x[i] = position[2 * i];
-        solver->state.y[i] = position[2 * i + 1];
-        solver->state.vx[i] = velocity[2 * i];
-        solver->state.vy[i] = velocity[2 * i + 1];
+        solver->state.x[i] = (float)particles->position[2 * i];
+        solver->state.y[i] = (float)particles->position[2 * i + 1];
+        solver->state.vx[i] = particles->velocity[2 * i];
+        solver->state.vy[i] = particles->velocity[2 * i + 1];
         solver->state.id[i] = i;
     }
     solver->evaluated = false;
@@ -490,10 +492,8 @@ static bool allocate(MuellerCpu *solver, uint32_t count, uint32_t threads)
            weir_particle_arrays_make(&solver->sorted, count) && weir_sum_arrays_make(&solver->sums, count);
 }
 
-static WeirSolver *create_solver(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
-                                 WeirMessage *message)
+WeirSolver *weir_mueller_cpu_create(const WeirSolverSetup *setup, WeirStatus *status, WeirMessage *message)
 {
-    (void)backend;
     MuellerCpu *solver = calloc(1, sizeof *solver);
     uint32_t count = setup->constants.particle_count;
     if (!solver || !allocate(solver, count, setup->threads) ||
@@ -508,13 +508,7 @@ static WeirSolver *create_solver(const WeirBackend *backend, const WeirSolverSet
     solver->pairs = weir_pair_passes();
     snprintf(solver->base.device, sizeof solver->base.device, "CPU, %u thread%s, %s", solver->base.threads,
              solver->base.threads == 1 ? "" : "s", solver->pairs->simd);
-    set_state(&solver->base, setup->position, setup->velocity);
+    set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;
     return &solver->base;
-}
-
-const WeirBackend *weir_cpu_backend(void)
-{
-    static const WeirBackend backend = {.name = "cpu", .create_solver = create_solver};
-    return &backend;
 }

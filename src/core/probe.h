@@ -1,0 +1,16 @@
+// Probes: numbers measured from a state, by one function for every solver.
+//
+// A value at a point x is the Shepard-normalised sum over fluid particles, sum_j V_j f_j W / sum_j V_j W, with the
+// simulation's kernel; where the sum of weights is below 0.1 there is no fluid: pressure 0, velocity 0.
+#pragma once
+
+#include "core/scene.h"
+#include "core/solver.h"
+
+// Numbers that a probe gives: the dimension for velocity and force, else 1.
+uint32_t weir_probe_components(const WeirProbePiece *probe, uint32_t dimension);
+// Measures one probe. height: the highest point of the line through `position` against gravity (+y without gravity)
+// where sum_j V_j W >= 0.5, NaN if there is none; front: largest coordinate along `direction` of a fluid particle,
+// plus half a spacing. `solid`: index into state->solids of a force probe's target.
+void weir_probe_measure(const WeirProbePiece *probe, uint32_t solid, const WeirState *state,
+                        const WeirParameters *parameters, const WeirConstants *constants, double values[3]);

@@ -1,0 +1,24 @@
+// Walls and bodies in time: prescribed motion, rigid-body motion. Shared by the CPU solver and tests; the GPU's
+// pass `solids` (shaders/wcsph/solids.wgsl) is its mirror. All in float with one order, so that bits agree.
+#pragma once
+
+#include "core/world.h"
+
+// States at the start of the world's solids.
+void weir_solids_start(const WeirWorld *world, WeirSolidState *states);
+
+// Second half of a step, after the fluid's forces are summed into states[].force and torque: free bodies take
+// their new velocities over `dt` (gravity, fluid, contact), driven ones the mean velocities of [time, time + dt].
+// acceleration and angular_acceleration become those of this step.
+void weir_solids_kick(const WeirWorld *world, const float gravity[4], double time, float dt,
+                      WeirSolidState *states);
+
+// Moves reference points and orientations over `dt` (half a step, called twice per step) with the present
+// velocities; driven solids are put where their motion has them at `time`, the end of that half.
+void weir_solids_drift(const WeirWorld *world, double time, float dt, WeirSolidState *states);
+
+// Where the solid's point that started at `local` (relative to its reference point, m) is now, and its velocity.
+void weir_solid_point(const WeirSolidState *state, const float local[3], float position[3], float velocity[3]);
+
+// Displacement, rotation (angle times axis) and their rates of a driven solid at `time`.
+void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time, WeirMotionRow *now);
