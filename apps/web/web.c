@@ -27,18 +27,18 @@ const char *weir_web_version(void)
 WEIR_WEB(weir_web_parameters)
 const char *weir_web_parameters(void)
 {
-#define WEB_COMMON(name, unit, method, help)                                                                \
+#define WEB_COMMON(name, unit, method, help)                                                                 \
     ",{\"name\":\"" #name "\",\"unit\":\"" unit "\",\"help\":\"" help "\",\"method\":\"" method "\","
-#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                                       \
-    WEB_COMMON(name, unit, method, help)                                                                             \
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                               \
+    WEB_COMMON(name, unit, method, help)                                                                     \
     "\"kind\":\"vector\",\"choices\":\"\",\"default\":[" #x "," #y "," #z "],\"minimum\":" #minimum          \
     ",\"maximum\":" #maximum ",\"live\":" #live "}"
-#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                         \
-    WEB_COMMON(name, unit, method, help)                                                                             \
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                 \
+    WEB_COMMON(name, unit, method, help)                                                                     \
     "\"kind\":\"number\",\"choices\":\"\",\"default\":[" #value "],\"minimum\":" #minimum                    \
     ",\"maximum\":" #maximum ",\"live\":" #live "}"
-#define WEIR_CHOICE(name, names, value, method, live, help)                                                          \
-    WEB_COMMON(name, "1", method, help)                                                                              \
+#define WEIR_CHOICE(name, names, value, method, live, help)                                                  \
+    WEB_COMMON(name, "1", method, help)                                                                      \
     "\"kind\":\"choice\",\"choices\":\"" names "\",\"default\":[" #value "],\"minimum\":0,\"maximum\":0,"    \
     "\"live\":" #live "}"
     static const char list[] =

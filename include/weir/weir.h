@@ -136,17 +136,17 @@ void weir_sim_destroy(WeirSim *sim); // NULL is allowed
 
 // WEIR_OK while it can go on, WEIR_PENDING while it starts, else the error that stopped it.
 WeirStatus weir_sim_status(const WeirSim *sim);
-const char *weir_sim_error(const WeirSim *sim);   // message of the last call that failed; "" if none
-const char *weir_sim_warning(const WeirSim *sim); // advice, "" if none
-const char *weir_sim_backend(const WeirSim *sim); // "cpu" or "gpu"
-const char *weir_sim_device(const WeirSim *sim);  // "CPU, 2 threads, AVX2" or the adapter's name
-uint32_t weir_sim_threads(const WeirSim *sim);    // 0 on the GPU
+const char *weir_sim_error(const WeirSim *sim);       // message of the last call that failed; "" if none
+const char *weir_sim_warning(const WeirSim *sim);     // advice, "" if none
+const char *weir_sim_backend(const WeirSim *sim);     // "cpu" or "gpu"
+const char *weir_sim_device(const WeirSim *sim);      // "CPU, 2 threads, AVX2" or the adapter's name
+uint32_t weir_sim_threads(const WeirSim *sim);        // 0 on the GPU
 uint32_t weir_sim_particle_count(const WeirSim *sim); // of all: fluid, empty slots, walls, bodies
 uint32_t weir_sim_fluid_slots(const WeirSim *sim);    // ids below are fluid or empty slots
 uint32_t weir_sim_dimension(const WeirSim *sim);      // 2 or 3
-uint64_t weir_sim_step_count(const WeirSim *sim);    // steps since the last reset
-double weir_sim_time(const WeirSim *sim);            // simulated seconds since the last reset
-const WeirScene *weir_sim_scene(const WeirSim *sim); // as it runs now, changed parameters included
+uint64_t weir_sim_step_count(const WeirSim *sim);     // steps since the last reset
+double weir_sim_time(const WeirSim *sim);             // simulated seconds since the last reset
+const WeirScene *weir_sim_scene(const WeirSim *sim);  // as it runs now, changed parameters included
 
 // Takes `steps` time steps. On the GPU they are queued; weir_sim_poll() learns of faults.
 WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps);
@@ -191,7 +191,7 @@ typedef enum WeirField {
     WEIR_FIELD_ACCELERATION, // m/s^2, without the tool's share
     WEIR_FIELD_DENSITY,      // one per particle, kg/m^3
     WEIR_FIELD_PRESSURE,     // one per particle, Pa
-    WEIR_FIELD_GROUP,        // one per particle: 0 fluid, -1 an empty slot, k + 1 wall or body k (walls first)
+    WEIR_FIELD_GROUP, // one per particle: 0 fluid, -1 an empty slot, k + 1 wall or body k (walls first)
 } WeirField;
 // Floats per particle of a field in `dimension` 2 or 3: the dimension for a vector, else 1.
 uint32_t weir_field_components(WeirField field, uint32_t dimension);
@@ -204,11 +204,11 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
 // only; the rest is NaN or 0.
 typedef struct WeirClock {
     uint64_t step;
-    double time;              // s
-    double time_step;         // s, of the next step
-    double sound_speed;       // m/s
-    double max_speed;         // m/s, of the fluid
-    double mach_number;       // max_speed / sound_speed; above 0.1 the fluid is no longer nearly incompressible
+    double time;        // s
+    double time_step;   // s, of the next step
+    double sound_speed; // m/s
+    double max_speed;   // m/s, of the fluid
+    double mach_number; // max_speed / sound_speed; above 0.1 the fluid is no longer nearly incompressible
     double max_density_error; // largest |rho / rho0 - 1|
     uint32_t fluid_particles, drained_particles, lost_particles;
 } WeirClock;

@@ -7,11 +7,11 @@
 #include <string.h>
 
 static const WeirParameterInfo parameter_table[] = {
-#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                                       \
+#define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                               \
     {#name, unit, help, NULL, WEIR_PARAMETER_VECTOR, {x, y, z}, minimum, maximum, method, live},
-#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                         \
+#define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                 \
     {#name, unit, help, NULL, WEIR_PARAMETER_NUMBER, {value}, minimum, maximum, method, live},
-#define WEIR_CHOICE(name, names, value, method, live, help)                                                          \
+#define WEIR_CHOICE(name, names, value, method, live, help)                                                  \
     {#name, "1", help, names, WEIR_PARAMETER_CHOICE, {value}, 0, 0, method, live},
 #include "core/params.inl"
 };

@@ -40,7 +40,8 @@ static uint64_t fill_fluid(const WeirFluid *fluid, double spacing, uint64_t next
             double x = lattice.origin[0] + (double)column * spacing;
             double y = lattice.origin[1] + (double)row * spacing;
             double dx = x - fluid->shape.center[0], dy = y - fluid->shape.center[1];
-            if (fluid->shape.kind == WEIR_SHAPE_BALL && dx * dx + dy * dy > fluid->shape.radius * fluid->shape.radius)
+            if (fluid->shape.kind == WEIR_SHAPE_BALL &&
+                dx * dx + dy * dy > fluid->shape.radius * fluid->shape.radius)
                 continue;
             if (particles->position) {
                 particles->position[2 * next] = x;
@@ -141,7 +142,8 @@ static bool overlaps(const WeirFluid *other, double spacing, const double *posit
 {
     double x = position[0], y = position[1], gap = 0.49 * spacing;
     if (other->shape.kind == WEIR_SHAPE_BALL) {
-        double dx = x - other->shape.center[0], dy = y - other->shape.center[1], r = other->shape.radius - gap;
+        double dx = x - other->shape.center[0], dy = y - other->shape.center[1],
+               r = other->shape.radius - gap;
         return r > 0.0 && dx * dx + dy * dy < r * r;
     }
     return x > other->shape.min[0] + 0.02 * spacing && x < other->shape.max[0] - 0.02 * spacing &&

@@ -79,9 +79,9 @@ typedef struct WeirSolidPiece {
     bool is_driven; // it has a motion
     WeirMotion motion;
     // Bodies only:
-    double density;                     // kg/m^3
+    double density;                          // kg/m^3
     double velocity[3], angular_velocity[3]; // at the start
-    bool fixed[3], fixed_rotation[3];   // directions in which it is held
+    bool fixed[3], fixed_rotation[3];        // directions in which it is held
 } WeirSolidPiece;
 
 // `center` of a nozzle that is `size` wide (2D) or a disc of that diameter (3D), blowing along `direction`.

@@ -98,8 +98,8 @@ static WeirStatus set_fluid_key(WeirScene *scene, WeirFluid *fluid, const char *
                                 const Value *value)
 {
     WeirShapeKind shape = skip(key, "box.")    ? WEIR_SHAPE_BOX
-                      : skip(key, "ball.") ? WEIR_SHAPE_BALL
-                                           : WEIR_SHAPE_NONE;
+                          : skip(key, "ball.") ? WEIR_SHAPE_BALL
+                                               : WEIR_SHAPE_NONE;
     if (shape != WEIR_SHAPE_NONE && fluid->shape.kind != WEIR_SHAPE_NONE && fluid->shape.kind != shape) {
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
                          "%.80s: this piece of fluid is a box and a ball; must be one of them", path);

@@ -23,7 +23,7 @@ struct WeirSim {
     WeirStatus status;
     WeirMessage error, warning;
     uint32_t particle_count, fluid_slots, solid_count;
-    WeirHealth health; // as last polled
+    WeirHealth health;    // as last polled
     uint64_t steps;       // since the last reset
     uint64_t steps_given; // of these, taken before the solver's state was last replaced
     double time;
@@ -278,14 +278,15 @@ static WeirStatus blown_up(WeirSim *sim)
 {
     const WeirHealth *health = &sim->health;
     const float *place = health->first_bad_position;
-    return sim->status = weir_fail(
-               &sim->error, WEIR_ERROR_UNSTABLE,
-               "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than the speed of sound, "
-               "%.3g m/s, or not finite. %s",
-               (unsigned long long)(sim->steps_given + health->first_bad_step), health->first_bad_id, place[0],
-               place[1], place[2], sim->constants.sound_speed,
-               sim->parameters.stepping ? "Use stepping adaptive, or a smaller time_step"
-                                        : "Lower courant, or raise expected_speed or sound_speed");
+    return sim->status =
+               weir_fail(&sim->error, WEIR_ERROR_UNSTABLE,
+                         "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than the "
+                         "speed of sound, "
+                         "%.3g m/s, or not finite. %s",
+                         (unsigned long long)(sim->steps_given + health->first_bad_step),
+                         health->first_bad_id, place[0], place[1], place[2], sim->constants.sound_speed,
+                         sim->parameters.stepping ? "Use stepping adaptive, or a smaller time_step"
+                                                  : "Lower courant, or raise expected_speed or sound_speed");
 }
 
 WeirStatus weir_sim_poll(WeirSim *sim)
@@ -359,8 +360,8 @@ static WeirStatus check_state(WeirSim *sim, const float *positions, const float 
         if (!(positions[k] >= constants->domain_min[axis] && positions[k] <= constants->domain_max[axis])) {
             return weir_fail(&sim->error, WEIR_ERROR_INPUT,
                              "positions: particle %zu has %c = %g; the domain allows %g to %g", k / dimension,
-                             "xyz"[axis], (double)positions[k], (double)constants->domain_min[axis],
-                             (double)constants->domain_max[axis]);
+                             "xyz"[axis], (double)positions[k], (double)constants -> domain_min[axis],
+                             (double)constants -> domain_max[axis]);
         }
         if (!isfinite(velocities[k])) {
             return weir_fail(&sim->error, WEIR_ERROR_INPUT,
@@ -389,8 +390,7 @@ WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float 
 
 static WeirStatus configure(WeirSim *sim)
 {
-    return pass_on(sim,
-                   sim->solver->interface->configure(sim->solver, &sim->parameters, &sim->constants));
+    return pass_on(sim, sim->solver->interface->configure(sim->solver, &sim->parameters, &sim->constants));
 }
 
 WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *values, size_t count)

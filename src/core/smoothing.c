@@ -55,8 +55,8 @@ double weir_smoothing_factor(uint32_t kernel, uint32_t dimension, double support
         {2.0 / 3.0, 10.0 / (7.0 * pi), 1.0 / pi},
         {1.0 / 120.0, 7.0 / (478.0 * pi), 1.0 / (120.0 * pi)},
     };
-    double length = kernel == WEIR_KERNEL_WENDLAND ? support_radius
-                                                   : weir_smoothing_length(kernel, support_radius);
+    double length =
+        kernel == WEIR_KERNEL_WENDLAND ? support_radius : weir_smoothing_length(kernel, support_radius);
     return factors[kernel][dimension - 1] / positive_power(length, (int)dimension);
 }
 

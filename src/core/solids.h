@@ -18,7 +18,8 @@ void weir_solids_kick(const WeirWorld *world, const float gravity[4], double tim
 void weir_solids_drift(const WeirWorld *world, double time, float dt, WeirSolidState *states);
 
 // Where the solid's point that started at `local` (relative to its reference point, m) is now, and its velocity.
-void weir_solid_point(const WeirSolidState *state, const float local[3], float position[3], float velocity[3]);
+void weir_solid_point(const WeirSolidState *state, const float local[3], float position[3],
+                      float velocity[3]);
 
 // Displacement, rotation (angle times axis) and their rates of a driven solid at `time`.
 void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time, WeirMotionRow *now);

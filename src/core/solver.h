@@ -12,14 +12,14 @@ typedef struct WeirSolver WeirSolver;
 // Particle data on the host, ordered by id; owned by the solver, valid until its next call.
 typedef struct WeirState {
     uint32_t count;
-    uint32_t dimension;        // 2 or 3: components of the vectors below
-    uint64_t step;             // steps taken when the copy was made
-    const float *position;     // m
-    const float *velocity;     // m/s
-    const float *acceleration; // m/s^2, at these positions
-    const float *density;      // kg/m^3, at these positions
-    const float *pressure;     // Pa, at these positions; of solid particles extrapolated from the fluid
-    const uint32_t *group;     // WEIR_GROUP_...; NULL: all fluid
+    uint32_t dimension;           // 2 or 3: components of the vectors below
+    uint64_t step;                // steps taken when the copy was made
+    const float *position;        // m
+    const float *velocity;        // m/s
+    const float *acceleration;    // m/s^2, at these positions
+    const float *density;         // kg/m^3, at these positions
+    const float *pressure;        // Pa, at these positions; of solid particles extrapolated from the fluid
+    const uint32_t *group;        // WEIR_GROUP_...; NULL: all fluid
     const WeirSolidState *solids; // NULL: none
     double time;                  // s since set_state(); negative: steps of one length (mueller)
 } WeirState;

@@ -37,20 +37,21 @@ typedef enum WeirSolidKind {
 
 // What of a wall or body stays as it is. The layout of WGSL `struct Solid` (shaders/wcsph/solids.wgsl).
 typedef struct WeirSolid {
-    uint32_t kind;          // WeirSolidKind
-    uint32_t no_slip;       // 1: the fluid sticks to it (viscosity acts), 0: it slides
-    uint32_t first, count;  // ids of its particles
-    uint32_t motion_first;  // rows of the motion table, by time
-    uint32_t motion_count;  // 0: none
+    uint32_t kind;           // WeirSolidKind
+    uint32_t no_slip;        // 1: the fluid sticks to it (viscosity acts), 0: it slides
+    uint32_t first, count;   // ids of its particles
+    uint32_t motion_first;   // rows of the motion table, by time
+    uint32_t motion_count;   // 0: none
     uint32_t motion_repeats; // 1: starts anew after its last row
-    float mass;             // kg (per metre of depth in 2D)
-    alignas(16) float surface_velocity[4]; // of a fixed wall's surface, as of a conveyor belt or a cavity's lid, m/s
-    float freedom[4];                      // 1 or 0 per axis: may a free body move along x, y, z
-    float angular_freedom[4];              // may it turn about x, y, z (2D: z only)
-    float inverse_inertia[3][4];           // of a free body about its centre of mass at the start, 1/(kg m^2)
-    float position[4];                     // reference point at the start: a body's centre of mass, m
-    float velocity[4];                     // at the start, m/s
-    float angular_velocity[4];             // at the start, rad/s
+    float mass;              // kg (per metre of depth in 2D)
+    alignas(16) float surface_velocity
+        [4];                     // of a fixed wall's surface, as of a conveyor belt or a cavity's lid, m/s
+    float freedom[4];            // 1 or 0 per axis: may a free body move along x, y, z
+    float angular_freedom[4];    // may it turn about x, y, z (2D: z only)
+    float inverse_inertia[3][4]; // of a free body about its centre of mass at the start, 1/(kg m^2)
+    float position[4];           // reference point at the start: a body's centre of mass, m
+    float velocity[4];           // at the start, m/s
+    float angular_velocity[4];   // at the start, rad/s
 } WeirSolid;
 
 // What changes. The layout of WGSL `struct SolidState`. Vectors in world coordinates.
@@ -67,12 +68,12 @@ typedef struct WeirSolidState {
 
 // One row of a prescribed motion, relative to the start. Between rows: cubic Hermite interpolation.
 typedef struct WeirMotionRow {
-    float time;                     // s, rising
-    float displacement[3];          // m
-    float rotation[3];              // angle times axis, rad
-    float displacement_rate[3];     // m/s
-    float rotation_rate[3];         // rad/s
-    float unused[3];                // pads to 64 bytes
+    float time;                 // s, rising
+    float displacement[3];      // m
+    float rotation[3];          // angle times axis, rad
+    float displacement_rate[3]; // m/s
+    float rotation_rate[3];     // rad/s
+    float unused[3];            // pads to 64 bytes
 } WeirMotionRow;
 
 // A flat nozzle. Layers of particles at its points move along `direction`; each layer is born one support radius

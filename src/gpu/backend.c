@@ -2,8 +2,8 @@
 #include "gpu/device.h"
 #include "gpu/solvers.h"
 
-WeirSolver *weir_gpu_create_solver(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
-                                   WeirMessage *message)
+WeirSolver *weir_gpu_create_solver(const WeirBackend *backend, const WeirSolverSetup *setup,
+                                   WeirStatus *status, WeirMessage *message)
 {
     WeirGpu *gpu = ((const WeirGpuBackend *)backend)->gpu;
     *status = weir_gpu_check(gpu, message);

@@ -5,8 +5,8 @@
 //
 // The first error is kept: what follows a lost device or a failed shader is only noise.
 #include "gpu/device.h"
-#include "gpu/solvers.h"
 #include "gpu/platform.h"
+#include "gpu/solvers.h"
 
 #include <stdio.h>
 #include <stdlib.h>

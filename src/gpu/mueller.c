@@ -4,9 +4,9 @@
 // Steps are batched: one compute pass holds as many as a submit may take, with no work for the queue in
 // between. Between steps cell_count and the heads of cell_link are zero (density empties them).
 #include "gpu/mueller.h"
-#include "gpu/solvers.h"
 #include "core/sim.h"
 #include "gpu/platform.h"
+#include "gpu/solvers.h"
 
 #include <math.h>
 #include <stdio.h>

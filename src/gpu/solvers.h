@@ -4,8 +4,8 @@
 #include "gpu/gpu.h"
 
 // `create_solver` of a WeirGpuBackend.
-WeirSolver *weir_gpu_create_solver(const WeirBackend *backend, const WeirSolverSetup *setup, WeirStatus *status,
-                                   WeirMessage *message);
+WeirSolver *weir_gpu_create_solver(const WeirBackend *backend, const WeirSolverSetup *setup,
+                                   WeirStatus *status, WeirMessage *message);
 // On failure NULL, with *status and message set. The device is ready.
 WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
                                     WeirMessage *message);

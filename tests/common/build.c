@@ -88,7 +88,8 @@ WeirScene *weir_test_count_scene(uint32_t count, double size, double particle_sp
 
 float *weir_test_read(WeirSim *sim, WeirField field)
 {
-    size_t capacity = (size_t)weir_sim_particle_count(sim) * weir_field_components(field, weir_sim_dimension(sim));
+    size_t capacity =
+        (size_t)weir_sim_particle_count(sim) * weir_field_components(field, weir_sim_dimension(sim));
     float *values = malloc(capacity * sizeof *values);
     assert_non_null(values);
     CHECK_SIM(sim, weir_sim_read(sim, field, values, capacity), WEIR_OK);

@@ -30,8 +30,8 @@ static void assert_same(const WeirScene *a, const WeirScene *b)
     for (uint32_t n = 0; n < a->fluid_count; ++n) {
         const WeirFluid *p = &a->fluid[n], *q = &b->fluid[n];
         assert_int_equal(p->shape.kind, q->shape.kind);
-        assert_true(p->shape.has_min == q->shape.has_min && p->shape.has_max == q->shape.has_max && p->shape.has_center == q->shape.has_center &&
-                    p->shape.has_radius == q->shape.has_radius);
+        assert_true(p->shape.has_min == q->shape.has_min && p->shape.has_max == q->shape.has_max &&
+                    p->shape.has_center == q->shape.has_center && p->shape.has_radius == q->shape.has_radius);
         assert_memory_equal(p->shape.min, q->shape.min, sizeof p->shape.min);
         assert_memory_equal(p->shape.max, q->shape.max, sizeof p->shape.max);
         assert_memory_equal(p->shape.center, q->shape.center, sizeof p->shape.center);
