@@ -109,6 +109,12 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
     constants->speed_limit = parameters->sound_speed;
+    // Artificial viscosity acts as nu = alpha h c0 / (2 (d + 2)) (Monaghan 2005): it makes up only for what the fluid's
+    // own viscosity lacks.
+    double length = weir_smoothing_length(kernel, support) * parameters->sound_speed;
+    double artificial = parameters->rest_density * parameters->artificial_viscosity * length;
+    constants->artificial_factor =
+        (float)fmax(0.0, artificial - 2.0 * (dimension + 2.0) * parameters->viscosity);
     make_coordinates(constants, scene, support);
 }
 

@@ -10,6 +10,7 @@
 // No pass reads what it writes, and every sum has one order, so the bits depend on neither threads
 // nor compiler.
 #include "core/cpu/arrays.h"
+#include "core/cpu/cells.h"
 #include "core/cpu/pairs.h"
 #include "core/cpu/pool.h"
 #include "core/cpu/solvers.h"
@@ -22,7 +23,7 @@
 #include <string.h>
 
 // Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
-enum { CHUNK = 512, CELL_CHUNK = 4096, SCAN_BLOCK = 8192 };
+enum { CHUNK = 512, CELL_CHUNK = 4096 };
 
 enum { PASS_COUNT, PASS_SCAN, PASS_SCATTER, PASS_DENSITY, PASS_FORCES, PASS_INTEGRATE, PASS_TOTAL };
 static const char *const pass_names[PASS_TOTAL] = {"count",   "scan",   "scatter",
@@ -38,13 +39,7 @@ typedef struct MuellerCpu {
     WeirParticleArrays sorted; // the same particles by cell
     WeirSumArrays sums;        // of the sorted particles
     WeirHostArrays host;       // copy by id, for read()
-    uint32_t *cell;            // of each particle of state
-    uint32_t *rank;            // place of each particle of state among those counted into its cell
-    uint32_t *slot;            // sorted place -> place in state
-    atomic_uint *cell_count;
-    uint32_t *cell_start; // cell_count + 1
-    uint32_t *block_sum;  // of scan
-    uint32_t cell_capacity;
+    WeirCells cells;
     uint64_t steps;
     bool evaluated; // sorted and sums belong to the state, so that a read costs no second evaluation
     atomic_uint bad_particles;
@@ -52,23 +47,7 @@ typedef struct MuellerCpu {
     double pass_seconds[PASS_TOTAL];
 } MuellerCpu;
 
-static uint32_t scan_blocks(uint32_t cells)
-{
-    return (cells + SCAN_BLOCK - 1) / SCAN_BLOCK;
-}
-
 // ---- Passes ----
-
-// Adds `particles` to a cell and returns how many it held. A plain addition is several times faster
-// than an atomic.
-static inline uint32_t add_to_cell(MuellerCpu *solver, uint32_t cell, uint32_t particles, bool alone)
-{
-    atomic_uint *counter = &solver->cell_count[cell];
-    if (!alone) return atomic_fetch_add_explicit(counter, particles, memory_order_relaxed);
-    uint32_t before = atomic_load_explicit(counter, memory_order_relaxed);
-    atomic_store_explicit(counter, before + particles, memory_order_relaxed);
-    return before;
-}
 
 static void count_chunk(void *context, uint32_t begin, uint32_t end)
 {
@@ -76,15 +55,10 @@ static void count_chunk(void *context, uint32_t begin, uint32_t end)
     const WeirConstants *constants = &solver->constants;
     bool alone = weir_pool_threads(solver->pool) == 1;
     for (uint32_t i = begin; i < end; ++i) {
-        solver->cell[i] = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
-                          weir_grid_column(constants, solver->state.x[i]);
+        solver->cells.cell[i] = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
+                                weir_grid_column(constants, solver->state.x[i]);
     }
-    // The last step left most of a cell's particles side by side: they are added together.
-    for (uint32_t i = begin, last; i < end; i = last) {
-        for (last = i + 1; last < end && solver->cell[last] == solver->cell[i];) ++last;
-        uint32_t before = add_to_cell(solver, solver->cell[i], last - i, alone);
-        for (uint32_t k = i; k < last; ++k) solver->rank[k] = before + (k - i);
-    }
+    weir_cells_count(&solver->cells, begin, end, alone);
 }
 
 // Particles per cell, and each one's rank in its cell: any order, scatter puts it right.
@@ -93,92 +67,20 @@ static void count(MuellerCpu *solver)
     weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, count_chunk, solver);
 }
 
-static void sum_block(void *context, uint32_t begin, uint32_t end)
-{
-    MuellerCpu *solver = context;
-    for (uint32_t block = begin; block < end; ++block) {
-        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK, sum = 0;
-        if (last > solver->constants.cell_count) last = solver->constants.cell_count;
-        for (uint32_t cell = first; cell < last; ++cell) {
-            sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
-        }
-        solver->block_sum[block] = sum;
-    }
-}
-
-static void start_block(void *context, uint32_t begin, uint32_t end)
-{
-    MuellerCpu *solver = context;
-    for (uint32_t block = begin; block < end; ++block) {
-        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK, sum = solver->block_sum[block];
-        if (last > solver->constants.cell_count) last = solver->constants.cell_count;
-        for (uint32_t cell = first; cell < last; ++cell) {
-            solver->cell_start[cell] = sum;
-            sum += atomic_load_explicit(&solver->cell_count[cell], memory_order_relaxed);
-            atomic_store_explicit(&solver->cell_count[cell], 0, memory_order_relaxed);
-        }
-    }
-}
-
-// Exclusive prefix sum of the counts, by blocks of cells: where each cell's particles begin. Clears the
-// counts for the next step.
+// Where each cell's particles begin.
 static void scan(MuellerCpu *solver)
 {
-    uint32_t blocks = scan_blocks(solver->constants.cell_count), sum = 0;
-    weir_pool_run(solver->pool, blocks, 1, sum_block, solver);
-    for (uint32_t block = 0; block < blocks; ++block) {
-        uint32_t particles = solver->block_sum[block];
-        solver->block_sum[block] = sum;
-        sum += particles;
-    }
-    solver->cell_start[solver->constants.cell_count] = sum;
-    weir_pool_run(solver->pool, blocks, 1, start_block, solver);
-}
-
-static void place_chunk(void *context, uint32_t begin, uint32_t end)
-{
-    MuellerCpu *solver = context;
-    for (uint32_t i = begin; i < end; ++i)
-        solver->slot[solver->cell_start[solver->cell[i]] + solver->rank[i]] = i;
-}
-
-static int compare_keys(const void *a, const void *b)
-{
-    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return (x > y) - (x < y);
-}
-
-// Insertion beats any other sort for the few particles of a cell; a crowded one (a blow-up) must not take
-// n^2.
-static void sort_cell_by_id(MuellerCpu *solver, uint32_t begin, uint32_t end)
-{
-    uint32_t *slot = solver->slot;
-    const uint32_t *id = solver->state.id;
-    if (end - begin > 64) {
-        uint64_t *keys = malloc((end - begin) * sizeof *keys);
-        if (keys) {
-            for (uint32_t k = begin; k < end; ++k) keys[k - begin] = (uint64_t)id[slot[k]] << 32 | slot[k];
-            qsort(keys, end - begin, sizeof *keys, compare_keys);
-            for (uint32_t k = begin; k < end; ++k) slot[k] = (uint32_t)keys[k - begin];
-            free(keys);
-            return;
-        }
-    }
-    for (uint32_t k = begin + 1; k < end; ++k) {
-        uint32_t particle = slot[k], place = k;
-        for (; place > begin && id[slot[place - 1]] > id[particle]; --place) slot[place] = slot[place - 1];
-        slot[place] = particle;
-    }
+    weir_cells_scan(&solver->cells, solver->pool, solver->constants.cell_count);
 }
 
 static void gather_chunk(void *context, uint32_t begin, uint32_t end)
 {
     MuellerCpu *solver = context;
     for (uint32_t cell = begin; cell < end; ++cell) {
-        uint32_t first = solver->cell_start[cell], last = solver->cell_start[cell + 1];
-        if (last - first > 1) sort_cell_by_id(solver, first, last);
+        uint32_t first = solver->cells.cell_start[cell], last = solver->cells.cell_start[cell + 1];
+        if (last - first > 1) weir_cells_order(&solver->cells, solver->state.id, first, last);
         for (uint32_t k = first; k < last; ++k) {
-            weir_particle_copy(&solver->sorted, k, &solver->state, solver->slot[k]);
+            weir_particle_copy(&solver->sorted, k, &solver->state, solver->cells.slot[k]);
         }
     }
 }
@@ -186,7 +88,7 @@ static void gather_chunk(void *context, uint32_t begin, uint32_t end)
 // Moves the whole particle data to its cell, in order of id.
 static void scatter(MuellerCpu *solver)
 {
-    weir_pool_run(solver->pool, solver->constants.particle_count, CHUNK, place_chunk, solver);
+    weir_cells_place(&solver->cells, solver->pool, solver->constants.particle_count);
     weir_pool_run(solver->pool, solver->constants.cell_count, CELL_CHUNK, gather_chunk, solver);
 }
 
@@ -195,7 +97,7 @@ static WeirPairData pair_data(const MuellerCpu *solver)
     return (WeirPairData){
         .parameters = &solver->parameters,
         .constants = &solver->constants,
-        .cell_start = solver->cell_start,
+        .cell_start = solver->cells.cell_start,
         .x = solver->sorted.x,
         .y = solver->sorted.y,
         .vx = solver->sorted.vx,
@@ -361,12 +263,7 @@ static void destroy(WeirSolver *base)
     weir_particle_arrays_free(&solver->sorted);
     weir_sum_arrays_free(&solver->sums);
     weir_host_arrays_free(&solver->host);
-    free(solver->cell);
-    free(solver->rank);
-    free(solver->slot);
-    free(solver->cell_count);
-    free(solver->cell_start);
-    free(solver->block_sum);
+    weir_cells_free(&solver->cells);
     free(solver);
 }
 
@@ -374,24 +271,8 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
                             const WeirConstants *constants)
 {
     MuellerCpu *solver = (MuellerCpu *)base;
-    if (constants->cell_count > solver->cell_capacity) {
-        atomic_uint *cell_count = calloc(constants->cell_count, sizeof *cell_count);
-        uint32_t *cell_start = calloc((size_t)constants->cell_count + 1, sizeof *cell_start);
-        uint32_t *block_sum = calloc(scan_blocks(constants->cell_count), sizeof *block_sum);
-        if (!cell_count || !cell_start || !block_sum) {
-            free(cell_count);
-            free(cell_start);
-            free(block_sum);
-            return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells",
-                             constants->cell_count);
-        }
-        free(solver->cell_count);
-        free(solver->cell_start);
-        free(solver->block_sum);
-        solver->cell_count = cell_count;
-        solver->cell_start = cell_start;
-        solver->block_sum = block_sum;
-        solver->cell_capacity = constants->cell_count;
+    if (!weir_cells_reserve(&solver->cells, constants->cell_count)) {
+        return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells", constants->cell_count);
     }
     // Constants follow from the parameters, apart from the tool, which acts in `integrate` only.
     if (memcmp(&solver->parameters, parameters, sizeof *parameters) != 0) solver->evaluated = false;
@@ -484,10 +365,7 @@ static const WeirSolverInterface mueller_interface = {
 static bool allocate(MuellerCpu *solver, uint32_t count, uint32_t threads)
 {
     solver->pool = weir_pool_create(threads);
-    solver->cell = calloc(count, sizeof *solver->cell);
-    solver->rank = calloc(count, sizeof *solver->rank);
-    solver->slot = calloc(count, sizeof *solver->slot);
-    return solver->pool && solver->cell && solver->rank && solver->slot &&
+    return solver->pool && weir_cells_make(&solver->cells, count) &&
            weir_particle_arrays_make(&solver->state, count) &&
            weir_particle_arrays_make(&solver->sorted, count) && weir_sum_arrays_make(&solver->sums, count);
 }
