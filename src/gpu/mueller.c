@@ -349,6 +349,7 @@ bool weir_gpu_particles(WeirSim *sim, WeirGpuParticles *particles)
     const WeirMueller *solver = (const WeirMueller *)base;
     *particles = (WeirGpuParticles){
         .gpu = solver->gpu,
+        .method = WEIR_METHOD_MUELLER,
         .position = solver->buffers.handle[WEIR_BUFFER_position],
         .velocity = solver->buffers.handle[WEIR_BUFFER_velocity],
         .flow = solver->buffers.handle[WEIR_BUFFER_flow],
