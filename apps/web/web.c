@@ -23,28 +23,28 @@ const char *weir_web_version(void)
     return WEIR_VERSION;
 }
 
-// The parameter list as JSON, made by the compiler.
-WEIR_WEB(weir_web_parameters)
-const char *weir_web_parameters(void)
+// Parameter `index` of the list as JSON, made by the compiler; NULL after the last one.
+WEIR_WEB(weir_web_parameter)
+const char *weir_web_parameter(uint32_t index)
 {
 #define WEB_COMMON(name, unit, method, help)                                                                 \
-    ",{\"name\":\"" #name "\",\"unit\":\"" unit "\",\"help\":\"" help "\",\"method\":\"" method "\","
+    "{\"name\":\"" #name "\",\"unit\":\"" unit "\",\"help\":\"" help "\",\"method\":\"" method "\","
 #define WEIR_VECTOR(name, unit, x, y, z, minimum, maximum, method, live, help)                               \
     WEB_COMMON(name, unit, method, help)                                                                     \
     "\"kind\":\"vector\",\"choices\":\"\",\"default\":[" #x "," #y "," #z "],\"minimum\":" #minimum          \
-    ",\"maximum\":" #maximum ",\"live\":" #live "}"
+    ",\"maximum\":" #maximum ",\"live\":" #live "}",
 #define WEIR_NUMBER(name, unit, value, minimum, maximum, method, live, help)                                 \
     WEB_COMMON(name, unit, method, help)                                                                     \
     "\"kind\":\"number\",\"choices\":\"\",\"default\":[" #value "],\"minimum\":" #minimum                    \
-    ",\"maximum\":" #maximum ",\"live\":" #live "}"
+    ",\"maximum\":" #maximum ",\"live\":" #live "}",
 #define WEIR_CHOICE(name, names, value, method, live, help)                                                  \
     WEB_COMMON(name, "1", method, help)                                                                      \
     "\"kind\":\"choice\",\"choices\":\"" names "\",\"default\":[" #value "],\"minimum\":0,\"maximum\":0,"    \
-    "\"live\":" #live "}"
-    static const char list[] =
+    "\"live\":" #live "}",
+    static const char *const list[] = {
 #include "core/params.inl"
-        "]";
-    return list + 1; // without the first comma; the reader opens the bracket
+    };
+    return index < sizeof list / sizeof *list ? list[index] : NULL;
 }
 
 WEIR_WEB(weir_web_scene_domain)

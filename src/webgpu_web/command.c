@@ -119,8 +119,8 @@ WGPURenderPassEncoder wgpuCommandEncoderBeginRenderPass(WGPUCommandEncoder encod
 {
     const WGPUPassTimestampWrites *writes = descriptor->timestampWrites;
     if (!writes) writes = &no_timestamps;
-    if (descriptor->depthStencilAttachment || descriptor->occlusionQuerySet)
-        weir_webgpu_refuse(WEIR_ID(encoder), "depth, stencil and occlusion are not served");
+    if (descriptor->occlusionQuerySet)
+        weir_webgpu_refuse(WEIR_ID(encoder), "occlusion queries are not served");
     for (size_t k = 0; k < descriptor->colorAttachmentCount; k++) {
         const WGPURenderPassColorAttachment *color = &descriptor->colorAttachments[k];
         uint32_t slice = color->depthSlice;
@@ -128,6 +128,11 @@ WGPURenderPassEncoder wgpuCommandEncoderBeginRenderPass(WGPUCommandEncoder encod
                                  WEIR_ID(color->resolveTarget), color->loadOp, color->storeOp,
                                  color->clearValue.r, color->clearValue.g, color->clearValue.b,
                                  color->clearValue.a);
+    }
+    const WGPURenderPassDepthStencilAttachment *depth = descriptor->depthStencilAttachment;
+    if (depth) { // without a stencil: none is served
+        weir_js_depth_attachment(WEIR_ID(depth->view), depth->depthLoadOp, depth->depthStoreOp,
+                                 depth->depthClearValue, depth->depthReadOnly);
     }
     return WEIR_OBJECT(WGPURenderPassEncoder,
                        weir_js_render_pass(WEIR_ID(encoder), WEIR_TEXT(descriptor->label),

@@ -81,10 +81,13 @@ WEIR_JS(uint32_t, message_text, uint32_t index)
 // Layouts, bind groups, pipelines: parts first, then the call that takes them
 WEIR_JS(void, layout_buffer, uint32_t binding, uint32_t visibility, uint32_t type, uint32_t dynamic,
         double size)
+WEIR_JS(void, layout_texture, uint32_t binding, uint32_t visibility, uint32_t sample_type, uint32_t dimension,
+        uint32_t multisampled)
 WEIR_JS(uint32_t, layout_create, uint32_t device, WEIR_JS_TEXT)
 WEIR_JS(void, pipeline_layout_group, uint32_t layout)
 WEIR_JS(uint32_t, pipeline_layout_create, uint32_t device, WEIR_JS_TEXT)
 WEIR_JS(void, group_buffer, uint32_t binding, uint32_t buffer, double offset, double size)
+WEIR_JS(void, group_texture, uint32_t binding, uint32_t view)
 WEIR_JS(uint32_t, group_create, uint32_t device, WEIR_JS_TEXT, uint32_t layout)
 WEIR_JS(uint32_t, compute_pipeline, uint32_t device, WEIR_JS_TEXT, uint32_t layout, uint32_t shader,
         const char *entry, size_t entry_length)
@@ -93,6 +96,7 @@ WEIR_JS(void, blend, uint32_t color_operation, uint32_t color_source, uint32_t c
         uint32_t alpha_operation, uint32_t alpha_source, uint32_t alpha_destination)
 WEIR_JS(void, color_target, uint32_t format, uint32_t write_mask)
 WEIR_JS(void, fragment_stage, uint32_t shader, WEIR_JS_TEXT)
+WEIR_JS(void, depth_state, uint32_t format, uint32_t write, uint32_t compare)
 WEIR_JS(uint32_t, render_pipeline, uint32_t device, WEIR_JS_TEXT, uint32_t layout, uint32_t topology,
         uint32_t strip_format, uint32_t front_face, uint32_t cull_mode, uint32_t samples,
         uint32_t sample_mask, uint32_t alpha_to_coverage)
@@ -111,6 +115,8 @@ WEIR_JS(void, resolve_queries, uint32_t encoder, uint32_t query_set, uint32_t fi
 WEIR_JS(uint32_t, compute_pass, uint32_t encoder, WEIR_JS_TEXT, uint32_t query_set, double begin, double end)
 WEIR_JS(void, color_attachment, uint32_t view, double depth_slice, uint32_t resolve, uint32_t load,
         uint32_t store, double red, double green, double blue, double alpha)
+WEIR_JS(void, depth_attachment, uint32_t view, uint32_t load, uint32_t store, double clear,
+        uint32_t read_only)
 WEIR_JS(uint32_t, render_pass, uint32_t encoder, WEIR_JS_TEXT, uint32_t query_set, double begin, double end)
 WEIR_JS(void, pass_pipeline, uint32_t pass, uint32_t pipeline)
 WEIR_JS(void, pass_group, uint32_t pass, uint32_t index, uint32_t group, const uint32_t *offsets,

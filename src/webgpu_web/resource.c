@@ -203,15 +203,22 @@ void wgpuShaderModuleRelease(WGPUShaderModule shader)
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// Layouts and bind groups: buffers are all that Weir binds
+// Layouts and bind groups: buffers and textures are all that Weir binds
 
 WGPUBindGroupLayout wgpuDeviceCreateBindGroupLayout(WGPUDevice device,
                                                     const WGPUBindGroupLayoutDescriptor *descriptor)
 {
     for (size_t k = 0; k < descriptor->entryCount; k++) {
         const WGPUBindGroupLayoutEntry *entry = &descriptor->entries[k];
+        if (entry->bindingArraySize <= 1 &&
+            entry->texture.sampleType != WGPUTextureSampleType_BindingNotUsed) {
+            weir_js_layout_texture(entry->binding, (uint32_t)entry->visibility, entry->texture.sampleType,
+                                   entry->texture.viewDimension, entry->texture.multisampled);
+            continue;
+        }
         if (entry->buffer.type == WGPUBufferBindingType_BindingNotUsed || entry->bindingArraySize > 1) {
-            weir_webgpu_refuse(WEIR_ID(device), "bind group layouts of single buffers only are served");
+            weir_webgpu_refuse(WEIR_ID(device),
+                               "bind group layouts of single buffers and textures only are served");
             continue; // an empty binding, which every pipeline that uses it then refuses
         }
         weir_js_layout_buffer(entry->binding, (uint32_t)entry->visibility, entry->buffer.type,
@@ -245,8 +252,12 @@ WGPUBindGroup wgpuDeviceCreateBindGroup(WGPUDevice device, const WGPUBindGroupDe
 {
     for (size_t k = 0; k < descriptor->entryCount; k++) {
         const WGPUBindGroupEntry *entry = &descriptor->entries[k];
+        if (entry->textureView) {
+            weir_js_group_texture(entry->binding, WEIR_ID(entry->textureView));
+            continue;
+        }
         if (!entry->buffer) {
-            weir_webgpu_refuse(WEIR_ID(device), "bind groups of buffers only are served");
+            weir_webgpu_refuse(WEIR_ID(device), "bind groups of buffers and textures only are served");
             continue;
         }
         weir_js_group_buffer(entry->binding, WEIR_ID(entry->buffer), (double)entry->offset,
@@ -299,11 +310,15 @@ WGPURenderPipeline wgpuDeviceCreateRenderPipeline(WGPUDevice device,
     if (vertex->bufferCount > 0) weir_webgpu_refuse(WEIR_ID(device), "vertex buffers are not served");
     if (vertex->constantCount > 0 || (fragment && fragment->constantCount > 0))
         weir_webgpu_refuse(WEIR_ID(device), "pipeline constants are not served");
-    if (descriptor->depthStencil) weir_webgpu_refuse(WEIR_ID(device), "depth and stencil are not served");
+    const WGPUDepthStencilState *depth = descriptor->depthStencil;
     weir_js_vertex_stage(WEIR_ID(vertex->module), WEIR_TEXT(vertex->entryPoint));
     if (fragment) {
         for (size_t k = 0; k < fragment->targetCount; k++) add_target(&fragment->targets[k]);
         weir_js_fragment_stage(WEIR_ID(fragment->module), WEIR_TEXT(fragment->entryPoint));
+    }
+    if (depth) { // without a stencil: none is served
+        weir_js_depth_state(depth->format, depth->depthWriteEnabled == WGPUOptionalBool_True,
+                            depth->depthCompare);
     }
     return WEIR_OBJECT(WGPURenderPipeline,
                        weir_js_render_pipeline(

@@ -15,6 +15,12 @@ export const featureName: Names = [
 ];
 export const errorFilter: Names = [undefined, 'validation', 'out-of-memory', 'internal'];
 export const bufferBindingType: Names = [undefined, undefined, 'uniform', 'storage', 'read-only-storage'];
+export const textureSampleType: Names = [
+  undefined, undefined, 'float', 'unfilterable-float', 'depth', 'sint', 'uint',
+];
+export const compareFunction: Names = [
+  undefined, 'never', 'less', 'equal', 'less-equal', 'greater', 'not-equal', 'greater-equal', 'always',
+];
 export const bufferMapState: Names = [undefined, 'unmapped', 'pending', 'mapped'];
 export const queryType: Names = [undefined, 'occlusion', 'timestamp'];
 export const textureDimension: Names = [undefined, '1d', '2d', '3d'];

@@ -48,6 +48,7 @@ export class WebGpuImports {
   #targets: GPUColorTargetState[] = [];
   #vertex: GPUVertexState | undefined;
   #fragment: GPUFragmentState | undefined;
+  #depth: GPUDepthStencilState | undefined;
 
   // Descriptors of the calls that every frame makes, used again and again.
   readonly #labelOnly: { label: string } = { label: '' };
@@ -56,6 +57,7 @@ export class WebGpuImports {
   readonly #renderTimes: GPURenderPassTimestampWrites = { querySet: undefined as unknown as GPUQuerySet };
   readonly #attachmentPool: GPURenderPassColorAttachment[] = [];
   readonly #attachments: GPURenderPassColorAttachment[] = [];
+  readonly #depthAttachment: GPURenderPassDepthStencilAttachment = { view: undefined as unknown as GPUTextureView };
   readonly #renderPass: GPURenderPassDescriptor = { label: '', colorAttachments: this.#attachments };
   readonly #commands: GPUCommandBuffer[] = [];
 
@@ -383,6 +385,11 @@ export class WebGpuImports {
         const buffer = { type: bufferType, hasDynamicOffset: dynamic !== 0, minBindingSize };
         this.#layoutEntries.push({ binding, visibility, buffer });
       },
+      layout_texture: (binding: number, visibility: number, type: number, dimension: number, multisampled: number) => {
+        const sampleType = names.textureSampleType[type] as GPUTextureSampleType | undefined;
+        const viewDimension = names.textureViewDimension[dimension] as GPUTextureViewDimension | undefined;
+        this.#layoutEntries.push({ binding, visibility, texture: { sampleType, viewDimension, multisampled: multisampled !== 0 } });
+      },
       layout_create: (device: number, label: number, length: number) => {
         const entries = this.#layoutEntries;
         this.#layoutEntries = [];
@@ -401,6 +408,9 @@ export class WebGpuImports {
       group_buffer: (binding: number, buffer: number, offset: number, size: number) => {
         const resource = { buffer: this.#get<GPUBuffer>(buffer), offset, size: size < 0 ? undefined : size };
         this.#groupEntries.push({ binding, resource });
+      },
+      group_texture: (binding: number, view: number) => {
+        this.#groupEntries.push({ binding, resource: this.#get<GPUTextureView>(view) });
       },
       group_create: (device: number, label: number, length: number, layout: number) => {
         const entries = this.#groupEntries;
@@ -442,14 +452,23 @@ export class WebGpuImports {
         this.#fragment = { module: this.#get(shader), entryPoint, targets: this.#targets };
         this.#targets = [];
       },
+      depth_state: (format: number, write: number, compare: number) => {
+        this.#depth = {
+          format: names.textureFormat[format] as GPUTextureFormat, depthWriteEnabled: write !== 0,
+          depthCompare: names.compareFunction[compare] as GPUCompareFunction | undefined,
+        };
+      },
       render_pipeline: (device: number, label: number, length: number, layout: number, topology: number,
-        strip: number, front: number, cull: number, count: number, mask: number, alpha: number) =>
-        this.#add(
+        strip: number, front: number, cull: number, count: number, mask: number, alpha: number) => {
+        const depthStencil = this.#depth;
+        this.#depth = undefined;
+        return this.#add(
           this.#get<GPUDevice>(device).createRenderPipeline({
             label: this.#host.text(label, length),
             layout: layout ? this.#get<GPUPipelineLayout>(layout) : 'auto',
             vertex: this.#vertex as GPUVertexState,
             fragment: this.#fragment,
+            depthStencil,
             primitive: {
               topology: names.primitiveTopology[topology] as GPUPrimitiveTopology | undefined,
               stripIndexFormat: names.indexFormat[strip] as GPUIndexFormat | undefined,
@@ -459,7 +478,8 @@ export class WebGpuImports {
             multisample: { count, mask: mask >>> 0, alphaToCoverageEnabled: alpha !== 0 },
           }),
           this.#homeOf(device),
-        ),
+        );
+      },
     };
   }
 
@@ -531,6 +551,15 @@ export class WebGpuImports {
         clear.a = a;
         this.#attachments.push(attachment);
       },
+      depth_attachment: (view: number, load: number, store: number, clear: number, readOnly: number) => {
+        const attachment = this.#depthAttachment;
+        attachment.view = this.#get<GPUTextureView>(view);
+        attachment.depthLoadOp = names.loadOp[load] as GPULoadOp | undefined;
+        attachment.depthStoreOp = names.storeOp[store] as GPUStoreOp | undefined;
+        attachment.depthClearValue = Number.isFinite(clear) ? clear : undefined;
+        attachment.depthReadOnly = readOnly !== 0;
+        this.#renderPass.depthStencilAttachment = attachment;
+      },
       render_pass: (encoder: number, label: number, length: number, querySet: number, begin: number, end: number) => {
         const descriptor = this.#renderPass;
         descriptor.label = this.#host.label(label, length);
@@ -540,6 +569,7 @@ export class WebGpuImports {
           return this.#add(pass, this.#homeOf(encoder));
         } finally {
           this.#attachments.length = 0;
+          descriptor.depthStencilAttachment = undefined;
         }
       },
       pass_pipeline: (pass: number, pipeline: number) =>

@@ -16,6 +16,7 @@ export type ParameterInfo = {
   default: number[];
   minimum: number;
   maximum: number;
+  method: string; // the only one that reads it; '' if every one does
   live: boolean;
 };
 
@@ -68,7 +69,7 @@ export class Weir {
     this.#context = context;
     context.weir = this;
     this.version = context.memory.text(context.c.weir_web_version());
-    this.parameters = readParameters('[' + context.memory.text(context.c.weir_web_parameters()));
+    this.parameters = readParameters(context);
   }
 
   // A URL or string is fetched; bytes or a compiled module are instantiated. `gpu` null: no WebGPU (tests); left out:
@@ -143,12 +144,16 @@ async function compile(source: URL | string | BufferSource | WebAssembly.Module)
   return streams ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-function readParameters(json: string): ParameterInfo[] {
+function readParameters({ memory, c }: Context): ParameterInfo[] {
   type Raw = Omit<ParameterInfo, 'choices' | 'live'> & { choices: string; live: number };
-  return (JSON.parse(json) as Raw[]).map((raw) => {
+  const list: ParameterInfo[] = [];
+  for (let at = c.weir_web_parameter(0); at !== 0; at = c.weir_web_parameter(list.length)) {
+    const raw = JSON.parse(memory.text(at)) as Raw;
     const choices = raw.choices === '' ? [] : raw.choices.split('|');
-    return { ...raw, choices, maximum: raw.kind === 'choice' ? choices.length - 1 : raw.maximum, live: raw.live !== 0 };
-  });
+    const maximum = raw.kind === 'choice' ? choices.length - 1 : raw.maximum;
+    list.push({ ...raw, choices, maximum, live: raw.live !== 0 });
+  }
+  return list;
 }
 
 export class Gpu {

@@ -28,7 +28,7 @@ type Name =
   | 'weir_sim_particle_count' | 'weir_sim_poll' | 'weir_sim_read' | 'weir_sim_reset' | 'weir_sim_scene'
   | 'weir_sim_set_max_steps' | 'weir_sim_set_parameter' | 'weir_sim_set_state' | 'weir_sim_status'
   | 'weir_sim_step' | 'weir_sim_time' | 'weir_sim_warning' | 'weir_web_allocate' | 'weir_web_color_map'
-  | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameters'
+  | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameter'
   | 'weir_web_renderer_create' | 'weir_web_renderer_destroy' | 'weir_web_renderer_draw'
   | 'weir_web_scene_domain' | 'weir_web_sim_advance' | 'weir_web_sim_create' | 'weir_web_sim_diagnose'
   | 'weir_web_sim_pass_times' | 'weir_web_sim_set_tool' | 'weir_web_sim_step_count' | 'weir_web_version';

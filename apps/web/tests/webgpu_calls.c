@@ -79,11 +79,13 @@ int weir_test_read(WGPUBuffer source, uint64_t offset, size_t size, void *to)
 
 // ---------------------------------------------------------------------------------------------------------
 
-extern const WeirTest weir_device_tests[], weir_buffer_tests[], weir_pass_tests[], weir_end_tests[];
+extern const WeirTest weir_device_tests[], weir_buffer_tests[], weir_pass_tests[], weir_depth_tests[],
+    weir_end_tests[];
 
 static const WeirTest *test_at(uint32_t index)
 {
-    const WeirTest *const groups[] = {weir_device_tests, weir_buffer_tests, weir_pass_tests, weir_end_tests};
+    const WeirTest *const groups[] = {weir_device_tests, weir_buffer_tests, weir_pass_tests, weir_depth_tests,
+                                      weir_end_tests};
     for (size_t group = 0; group < sizeof groups / sizeof *groups; group++) {
         for (const WeirTest *test = groups[group]; test->calls; test++) {
             if (index-- == 0) return test;

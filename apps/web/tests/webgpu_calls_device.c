@@ -261,7 +261,7 @@ static int test_refused(uint32_t step)
         wgpuBindGroupLayoutRelease(wgpuDeviceCreateBindGroupLayout(world.device, &descriptor));
     }
     if (world.error_count == 0) return PENDING;
-    CHECK(strstr(world.error, "buffers only"));
+    CHECK(strstr(world.error, "buffers and textures only"));
     return DONE;
 }
 
