@@ -115,6 +115,10 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     double artificial = parameters->rest_density * parameters->artificial_viscosity * length;
     constants->artificial_factor =
         (float)fmax(0.0, artificial - 2.0 * (dimension + 2.0) * parameters->viscosity);
+    for (int axis = 0; axis < (int)dimension; ++axis) {
+        for (int side = 0; side < 2; ++side)
+            if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);
+    }
     make_coordinates(constants, scene, support);
 }
 

@@ -42,6 +42,7 @@ WEIR_CONSTANT_COUNT(row_shift, "wcsph: cell row and layer = coordinate y, z >> r
 WEIR_CONSTANT_COUNT(period_x, "wcsph: quanta after which x repeats; 0: not periodic")
 WEIR_CONSTANT_COUNT(period_y, "wcsph: the same for y")
 WEIR_CONSTANT_COUNT(period_z, "wcsph: the same for z")
+WEIR_CONSTANT_COUNT(open_sides, "wcsph: bit 2 axis + (0 low, 1 high) is set where a side has no wall")
 WEIR_CONSTANT_COUNT(first_solid, "wcsph: ids from here on are wall and body particles")
 WEIR_CONSTANT_COUNT(solid_count, "wcsph: walls and bodies")
 

@@ -1,9 +1,368 @@
-// The method `wcsph` on the CPU.
+// The method `wcsph` on the CPU: the reference that judges the GPU. docs/wcsph.md has the step and its sources.
+//
+//   state --drift--> moved --count, scan, scatter--> sorted --walls, forces, solids, kick, continuity--> rates
+//     ^                                                                                                   |
+//     +------------------------------------- finish, time_step -------------------------------------------+
+//
+// Every sum has one order and every choice depends on values alone, so the bits depend on neither threads nor
+// compiler.
+#include "core/cpu/wcsph.h"
+#include "core/cpu/arrays.h"
 #include "core/cpu/solvers.h"
+#include "core/grid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STEPS_PER_SNAPSHOT = 64 };
+
+static const char *const pass_names[WEIR_WCSPH_PASSES] = {
+    [WEIR_WCSPH_DRIFT] = "drift",
+    [WEIR_WCSPH_COUNT] = "count",
+    [WEIR_WCSPH_SCAN] = "scan",
+    [WEIR_WCSPH_SCATTER] = "scatter",
+    [WEIR_WCSPH_WALLS] = "walls",
+    [WEIR_WCSPH_FORCES] = "forces",
+    [WEIR_WCSPH_SOLIDS] = "solids",
+    [WEIR_WCSPH_KICK] = "kick",
+    [WEIR_WCSPH_CONTINUITY] = "continuity",
+    [WEIR_WCSPH_FINISH] = "finish",
+    [WEIR_WCSPH_TIME_STEP] = "time_step",
+};
+
+// ---- Sorting; cell_count stands for the cell of the empty slots ----
+
+static void count_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    const WeirConstants *constants = &solver->constants;
+    const WeirWcsphParticles *state = &solver->state;
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t column = weir_grid_cell(state->x[0][i], constants->column_shift, constants->cell_columns);
+        uint32_t row = weir_grid_cell(state->x[1][i], constants->row_shift, constants->cell_rows);
+        uint32_t layer = weir_grid_cell(state->x[2][i], constants->row_shift, constants->cell_layers);
+        uint32_t cell = (layer * constants->cell_rows + row) * constants->cell_columns + column;
+        solver->cells.cell[i] = state->group[i] == WEIR_GROUP_EMPTY ? constants->cell_count : cell;
+    }
+    weir_cells_count(&solver->cells, begin, end, weir_pool_threads(solver->pool) == 1);
+}
+
+static void count(WeirWcsph *solver)
+{
+    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, count_chunk, solver);
+}
+
+static void scan(WeirWcsph *solver)
+{
+    weir_cells_scan(&solver->cells, solver->pool, solver->constants.cell_count + 1);
+    solver->active = solver->cells.cell_start[solver->constants.cell_count];
+}
+
+// p of a density, docs/wcsph.md.
+static float equation_of_state(const WeirWcsph *solver, float density)
+{
+    const WeirParameters *parameters = &solver->parameters;
+    float c2 = solver->constants.sound_speed * solver->constants.sound_speed, rest = parameters->rest_density;
+    if (parameters->equation_of_state == WEIR_EQUATION_LINEAR)
+        return c2 * (density - rest) + parameters->background_pressure;
+    float ratio = density / rest, cube = ratio * ratio * ratio;
+    return rest * c2 / 7.0f * (cube * cube * ratio - 1.0f) + parameters->background_pressure;
+}
+
+static void copy_particle(const WeirWcsphParticles *to, uint32_t k, const WeirWcsphParticles *from,
+                          uint32_t i)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        to->x[axis][k] = from->x[axis][i];
+        to->velocity[axis][k] = from->velocity[axis][i];
+    }
+    to->density[k] = from->density[i];
+    to->rate[k] = from->rate[i];
+    to->id[k] = from->id[i];
+    to->group[k] = from->group[i];
+}
+
+// What follows from the particle alone and the sums need.
+static void prepare(WeirWcsph *solver, uint32_t k)
+{
+    WeirWcsphData *data = &solver->data;
+    uint32_t group = solver->sorted.group[k];
+    data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
+    data->stick[k] = 1.0f;
+    data->needs_force[k] = 0.0f;
+    data->inverse_density[k] = 1.0f / solver->sorted.density[k];
+    data->pressure[k] = 0.0f;
+    if (weir_group_is_solid(group)) {
+        const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
+        data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
+        data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
+        return;
+    }
+    data->pressure[k] = equation_of_state(solver, solver->sorted.density[k]);
+    for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = solver->sorted.velocity[axis][k];
+}
+
+static void gather_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    for (uint32_t cell = begin; cell < end; ++cell) {
+        uint32_t first = solver->cells.cell_start[cell], last = solver->cells.cell_start[cell + 1];
+        if (last - first > 1) weir_cells_order(&solver->cells, solver->state.id, first, last);
+        for (uint32_t k = first; k < last; ++k) {
+            copy_particle(&solver->sorted, k, &solver->state, solver->cells.slot[k]);
+            prepare(solver, k);
+        }
+    }
+}
+
+// Points the pair passes to the arrays of the sorted particles, which change places with the state's every step.
+static void point_to_sorted(WeirWcsph *solver)
+{
+    WeirWcsphData *data = &solver->data;
+    data->parameters = &solver->parameters;
+    data->constants = &solver->constants;
+    data->cell_start = solver->cells.cell_start;
+    data->max_speed = solver->clock.max_speed;
+    for (int axis = 0; axis < 3; ++axis) {
+        data->x[axis] = solver->sorted.x[axis];
+        data->velocity[axis] = solver->sorted.velocity[axis];
+    }
+    data->density = solver->sorted.density;
+    data->rate = solver->sorted.rate;
+}
+
+// Moves the whole particle data to its cell, in order of id.
+static void scatter(WeirWcsph *solver)
+{
+    point_to_sorted(solver);
+    weir_cells_place(&solver->cells, solver->pool, solver->constants.particle_count);
+    weir_pool_run(solver->pool, solver->constants.cell_count + 1, WEIR_WCSPH_CELL_CHUNK, gather_chunk,
+                  solver);
+    weir_wcsph_solid_velocities(solver, solver->sorted.velocity);
+}
+
+// ---- Pair passes ----
+
+static void forces_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    solver->passes->forces(&solver->data, begin, end);
+}
+
+static void forces(WeirWcsph *solver)
+{
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, forces_chunk, solver);
+}
+
+static void continuity_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    solver->passes->continuity(&solver->data, begin, end);
+}
+
+static void continuity(WeirWcsph *solver)
+{
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, continuity_chunk, solver);
+}
+
+// ---- The step ----
+
+static void timed(WeirWcsph *solver, WeirWcsphPass pass, void (*run)(WeirWcsph *))
+{
+    double begin = weir_seconds();
+    run(solver);
+    solver->pass_seconds[pass] = weir_seconds() - begin;
+}
+
+static void evaluate(WeirWcsph *solver)
+{
+    timed(solver, WEIR_WCSPH_COUNT, count);
+    timed(solver, WEIR_WCSPH_SCAN, scan);
+    timed(solver, WEIR_WCSPH_SCATTER, scatter);
+    timed(solver, WEIR_WCSPH_WALLS, weir_wcsph_walls);
+    timed(solver, WEIR_WCSPH_FORCES, forces);
+}
+
+static void take_step(WeirWcsph *solver)
+{
+    timed(solver, WEIR_WCSPH_DRIFT, weir_wcsph_drift);
+    evaluate(solver);
+    timed(solver, WEIR_WCSPH_SOLIDS, weir_wcsph_solids);
+    timed(solver, WEIR_WCSPH_KICK, weir_wcsph_kick);
+    timed(solver, WEIR_WCSPH_CONTINUITY, continuity);
+    timed(solver, WEIR_WCSPH_FINISH, weir_wcsph_finish);
+    timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step);
+}
+
+// The first time step follows from the accelerations and speeds at the start.
+static void choose_first_step(WeirWcsph *solver)
+{
+    evaluate(solver);
+    weir_wcsph_begin_maxima(solver);
+    for (uint32_t i = 0; i < solver->active; ++i) {
+        if (!weir_group_is_fluid(solver->sorted.group[i])) continue;
+        float speed2 = 0.0f, acceleration2 = 0.0f;
+        for (int axis = 0; axis < 3; ++axis) {
+            float v = solver->sorted.velocity[axis][i], a = solver->data.acceleration[axis][i];
+            speed2 += v * v;
+            acceleration2 += a * a;
+        }
+        weir_atomic_max(&solver->speed_bits, sqrtf(speed2));
+        weir_atomic_max(&solver->acceleration_bits, sqrtf(acceleration2));
+        weir_atomic_max(&solver->density_bits,
+                        fabsf(solver->sorted.density[i] / solver->parameters.rest_density - 1.0f));
+        ++solver->fluid_in_step;
+    }
+    weir_wcsph_time_step(solver);
+}
+
+// Length of the next step; the last two before `until` share what is left, so that none is tiny. 0: it is reached.
+static float next_step(const WeirWcsph *solver, double until)
+{
+    double left = until - solver->clock.time, dt = solver->clock.time_step;
+    if (left <= 1e-9 * fmax(until, 1e-3)) return 0.0f;
+    if (dt >= left) return (float)left;
+    return (float)(dt > 0.5 * left ? 0.5 * left : dt);
+}
+
+static void find_first_bad(WeirWcsph *solver)
+{
+    WeirHealth *bad = &solver->bad;
+    bad->bad_particles += solver->bad_in_step;
+    if (bad->first_bad_step > 0) return;
+    bad->first_bad_step = solver->clock.steps;
+    bad->first_bad_id = solver->first_bad_id;
+    for (uint32_t i = 0; i < solver->active; ++i) {
+        if (solver->state.id[i] != bad->first_bad_id) continue;
+        for (uint32_t axis = 0; axis < solver->constants.dimension; ++axis) {
+            bad->first_bad_position[axis] =
+                solver->constants.origin[axis] + (float)solver->state.x[axis][i] * solver->constants.quantum;
+        }
+    }
+    weir_wcsph_restore_snapshot(solver);
+}
+
+static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
+{
+    WeirWcsph *solver = (WeirWcsph *)base;
+    for (uint32_t n = 0; n < steps && solver->bad.bad_particles == 0; ++n) {
+        solver->dt = next_step(solver, until);
+        if (solver->dt <= 0.0f) break;
+        take_step(solver);
+        ++solver->clock.steps;
+        // A step that was shortened to end there ends there exactly.
+        double time = solver->clock.time + solver->dt;
+        solver->clock.time = fabs(until - time) <= 1e-6 * solver->dt ? until : time;
+        if (solver->bad_in_step > 0)
+            find_first_bad(solver);
+        else if (solver->clock.steps % STEPS_PER_SNAPSHOT == 0)
+            weir_wcsph_take_snapshot(solver);
+    }
+    return WEIR_OK;
+}
+
+// ---- The rest of the solver's contract ----
+
+static void destroy(WeirSolver *base)
+{
+    weir_wcsph_free((WeirWcsph *)base);
+    free(base);
+}
+
+static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
+                            const WeirConstants *constants)
+{
+    WeirWcsph *solver = (WeirWcsph *)base;
+    if (!weir_cells_reserve(&solver->cells, constants->cell_count + 1))
+        return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells", constants->cell_count);
+    solver->parameters = *parameters;
+    solver->constants = *constants;
+    return WEIR_OK;
+}
+
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+{
+    WeirWcsph *solver = (WeirWcsph *)base;
+    weir_wcsph_set_particles(solver, particles);
+    choose_first_step(solver);
+    weir_wcsph_take_snapshot(solver);
+    return WEIR_OK;
+}
+
+static WeirStatus poll(WeirSolver *base, WeirHealth *health)
+{
+    const WeirWcsph *solver = (const WeirWcsph *)base;
+    const WeirWcsphClock *clock = &solver->clock;
+    *health = solver->bad;
+    health->has_clock = true;
+    health->steps = clock->steps;
+    health->time = clock->time;
+    health->time_step = clock->time_step;
+    health->max_speed = clock->max_speed;
+    health->max_density_error = clock->max_density_error;
+    health->fluid_particles = clock->fluid_particles;
+    health->drained_particles = clock->drained_particles;
+    health->lost_particles = clock->lost_particles;
+    return WEIR_OK;
+}
+
+static WeirStatus wait_until_done(WeirSolver *base)
+{
+    (void)base; // step() returns when it is done
+    return WEIR_OK;
+}
+
+static WeirStatus read_state(WeirSolver *base, WeirState *state)
+{
+    WeirWcsph *solver = (WeirWcsph *)base;
+    solver->forces_wanted = true;
+    evaluate(solver);
+    weir_wcsph_sum_solid_forces(solver);
+    solver->forces_wanted = false;
+    if (weir_wcsph_copy_state(solver, state)) return WEIR_OK;
+    return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory to read %u particles",
+                     solver->constants.particle_count);
+}
+
+static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
+{
+    const WeirWcsph *solver = (const WeirWcsph *)base;
+    if (weir_seconds() == 0.0) return 0; // no clock on this target
+    for (uint32_t n = 0; n < WEIR_WCSPH_PASSES && n < capacity; ++n)
+        times[n] = (WeirPassTime){pass_names[n], 1000.0 * solver->pass_seconds[n]};
+    return WEIR_WCSPH_PASSES;
+}
+
+static const WeirSolverInterface wcsph_interface = {
+    .destroy = destroy,
+    .configure = configure,
+    .set_state = set_state,
+    .step = step,
+    .poll = poll,
+    .wait = wait_until_done,
+    .read = read_state,
+    .pass_times = pass_times,
+};
 
 WeirSolver *weir_wcsph_cpu_create(const WeirSolverSetup *setup, WeirStatus *status, WeirMessage *message)
 {
-    (void)setup;
-    *status = weir_fail(message, WEIR_ERROR_INPUT, "method: wcsph is not done yet");
-    return NULL;
+    WeirWcsph *solver = calloc(1, sizeof *solver);
+    if (!solver || !weir_wcsph_allocate(solver, setup) ||
+        configure(&solver->base, &setup->parameters, &setup->constants) != WEIR_OK) {
+        *status = weir_fail(message, WEIR_ERROR_MEMORY,
+                            "no memory for %u particles; raise parameters.particle_spacing",
+                            setup->constants.particle_count);
+        if (solver) destroy(&solver->base);
+        return NULL;
+    }
+    solver->base.interface = &wcsph_interface;
+    solver->base.threads = weir_pool_threads(solver->pool);
+    solver->passes = weir_wcsph_passes();
+    snprintf(solver->base.device, sizeof solver->base.device, "CPU, %u thread%s, %s", solver->base.threads,
+             solver->base.threads == 1 ? "" : "s", solver->passes->simd);
+    set_state(&solver->base, &setup->world->particles);
+    *status = WEIR_OK;
+    return &solver->base;
 }

@@ -1,0 +1,146 @@
+// The CPU solver of `wcsph`: what its files share. wcsph.c has the step, wcsph_motion.c what moves particles,
+// wcsph_solids.c walls and bodies, wcsph_pairs.c the sums over neighbours, wcsph_state.c memory and reading.
+#pragma once
+
+#include "core/cpu/cells.h"
+#include "core/cpu/wcsph_pairs.h"
+#include "core/solids.h"
+#include "core/solver.h"
+
+// Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
+enum { WEIR_WCSPH_CHUNK = 512, WEIR_WCSPH_CELL_CHUNK = 4096 };
+
+// Between steps all of a particle; vectors have three arrays also in 2D.
+typedef struct WeirWcsphParticles {
+    int32_t *x[3];      // quanta
+    float *velocity[3]; // m/s
+    float *density, *rate;
+    uint32_t *id, *group;
+} WeirWcsphParticles;
+
+typedef struct WeirWcsphEmitterState {
+    double next_travel; // m that the flow has come since `start` when the next layer is due
+} WeirWcsphEmitterState;
+
+// Where the simulation stands; small enough to be copied with a snapshot.
+typedef struct WeirWcsphClock {
+    uint64_t steps;
+    double time;            // s
+    float time_step;        // s, of the next step
+    float max_speed;        // m/s, of the fluid
+    float max_acceleration; // m/s^2, of fluid and free bodies
+    float max_density_error;
+    uint32_t fluid_particles, drained_particles, lost_particles;
+} WeirWcsphClock;
+
+// The state of some steps ago, for reading after a blow-up.
+typedef struct WeirWcsphSnapshot {
+    WeirWcsphParticles particles;
+    WeirSolidState *solids;
+    WeirWcsphClock clock;
+} WeirWcsphSnapshot;
+
+typedef enum WeirWcsphPass {
+    WEIR_WCSPH_DRIFT,
+    WEIR_WCSPH_COUNT,
+    WEIR_WCSPH_SCAN,
+    WEIR_WCSPH_SCATTER,
+    WEIR_WCSPH_WALLS,
+    WEIR_WCSPH_FORCES,
+    WEIR_WCSPH_SOLIDS,
+    WEIR_WCSPH_KICK,
+    WEIR_WCSPH_CONTINUITY,
+    WEIR_WCSPH_FINISH,
+    WEIR_WCSPH_TIME_STEP,
+    WEIR_WCSPH_PASSES
+} WeirWcsphPass;
+
+typedef struct WeirWcsph {
+    WeirSolver base;
+    WeirParameters parameters;
+    WeirConstants constants;
+    WeirPool *pool;
+    const WeirWcsphPasses *passes;
+    WeirCells cells;
+    WeirWcsphParticles state;  // what the last step left
+    WeirWcsphParticles sorted; // the same by cell, empty slots last
+    uint32_t active;           // sorted particles that are not empty
+    float *sums;               // one block for all arrays of `data` that are not of `sorted`
+    WeirWcsphData data;        // of the sorted particles
+    WeirWorld world;           // without particles
+    WeirSolidState *solids;
+    WeirWcsphEmitterState *emitters;
+    float *local;       // 3 per solid particle: where it is from its solid's reference point at the start, m
+    float *solid_force; // 6 per solid particle: force of the fluid, of contact, N
+    bool forces_wanted; // a read asks for the forces on fixed and driven solids too
+    bool has_emitters, has_drains, has_moving_solids, has_free_bodies;
+    float dt; // of the step that is being taken
+    WeirWcsphClock clock;
+    WeirWcsphSnapshot snapshot;
+    WeirHealth bad;          // the bad_particles, first_bad_ fields alone
+    atomic_uint bad_in_step; // of the step that is being taken
+    atomic_uint first_bad_id;
+    atomic_uint speed_bits, acceleration_bits,
+        density_bits; // largest values of the step: floats >= 0, compared as bits
+    atomic_uint fluid_in_step;
+    struct WeirHostCopy *host;
+    double pass_seconds[WEIR_WCSPH_PASSES];
+} WeirWcsph;
+
+// Takes the maximum of values that are not negative: their bits have their order.
+static inline void weir_atomic_max(atomic_uint *bits, float value)
+{
+    union {
+        float number;
+        uint32_t bits;
+    } word = {value};
+    uint32_t old = atomic_load_explicit(bits, memory_order_relaxed);
+    while (old < word.bits && !atomic_compare_exchange_weak_explicit(
+                                  bits, &old, word.bits, memory_order_relaxed, memory_order_relaxed)) {
+    }
+}
+
+static inline float weir_float_of(uint32_t bits)
+{
+    union {
+        uint32_t bits;
+        float number;
+    } word = {bits};
+    return word.number;
+}
+
+// Group FLUID or INLET: particles that are fluid for all others.
+static inline bool weir_group_is_fluid(uint32_t group)
+{
+    return group == WEIR_GROUP_FLUID || (group >= WEIR_GROUP_INLET && group != WEIR_GROUP_EMPTY);
+}
+
+// ---- wcsph_motion.c ----
+void weir_wcsph_drift(WeirWcsph *solver);
+void weir_wcsph_kick(WeirWcsph *solver);
+void weir_wcsph_finish(WeirWcsph *solver);
+void weir_wcsph_time_step(WeirWcsph *solver);
+// Largest values of the sorted particles as `time_step` needs them; called by finish and at the start.
+void weir_wcsph_begin_maxima(WeirWcsph *solver);
+
+// ---- wcsph_solids.c ----
+// Velocity of every solid's particles among the sorted ones, with the surface's own; `new`: into new_velocity.
+void weir_wcsph_solid_velocities(WeirWcsph *solver, float *const velocity[3]);
+void weir_wcsph_walls(WeirWcsph *solver);
+void weir_wcsph_solids(WeirWcsph *solver);
+// Places the particles of moving solids.
+void weir_wcsph_place_solids(WeirWcsph *solver, WeirWcsphParticles *particles);
+// Sums the forces on each solid.
+void weir_wcsph_sum_solid_forces(WeirWcsph *solver);
+
+// ---- wcsph_emitters.c ----
+void weir_wcsph_emit(WeirWcsph *solver);
+
+// ---- wcsph_state.c ----
+bool weir_wcsph_allocate(WeirWcsph *solver, const WeirSolverSetup *setup);
+void weir_wcsph_free(WeirWcsph *solver);
+void weir_wcsph_set_particles(WeirWcsph *solver, const WeirParticles *particles);
+void weir_wcsph_take_snapshot(WeirWcsph *solver);
+void weir_wcsph_restore_snapshot(WeirWcsph *solver);
+// Copies the evaluated state by id; false if memory runs out.
+bool weir_wcsph_copy_state(WeirWcsph *solver, WeirState *state);

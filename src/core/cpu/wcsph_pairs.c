@@ -1,0 +1,401 @@
+// Walls, forces and continuity of `wcsph` on the CPU: docs/wcsph.md has the formulas, shaders/wcsph/ the mirrors.
+//
+// One vector holds neighbouring particles i, every candidate j is broadcast to it (runs.h). A candidate outside the
+// support adds exactly 0, so the sums have the same bits for any number of lanes.
+//
+// Distances are summed in quanta; what scales a whole sum is applied once, at its end. F^ is the kernel's slope
+// without its factor: (dW/dr) / r = gradient_factor F^.
+#include "core/cpu/wcsph_pairs.h"
+#include "core/cpu/pairs.h"
+#include "core/cpu/runs.h"
+
+// Name of the variant that this compilation makes; the build compiles this file once per instruction set.
+#ifndef WEIR_WCSPH_PASSES
+#define WEIR_WCSPH_PASSES weir_wcsph_passes_base
+#endif
+extern const WeirWcsphPasses WEIR_WCSPH_PASSES;
+
+#define INLINE static inline __attribute__((always_inline))
+
+// Known at compile time in each copy of a pass.
+typedef struct Variant {
+    bool three_dimensional;
+    uint32_t kernel;
+} Variant;
+
+typedef struct Vector {
+    WeirLanes x, y, z;
+} Vector;
+
+INLINE Vector load(const float *const array[3], uint32_t i, Variant variant)
+{
+    Vector v = {weir_lanes_load(array[0] + i), weir_lanes_load(array[1] + i), {0}};
+    if (variant.three_dimensional) v.z = weir_lanes_load(array[2] + i);
+    return v;
+}
+
+INLINE WeirLanes dot(Vector a, Vector b, Variant variant)
+{
+    WeirLanes sum = a.x * b.x + a.y * b.y;
+    return variant.three_dimensional ? sum + a.z * b.z : sum;
+}
+
+INLINE void add_scaled(Vector *sum, WeirLanes scale, Vector v, Variant variant)
+{
+    sum->x += scale * v.x;
+    sum->y += scale * v.y;
+    if (variant.three_dimensional) sum->z += scale * v.z;
+}
+
+// x_i - x_j in quanta, exact inside the support.
+INLINE Vector offset_to(const WeirWcsphData *data, const WeirMask place[3], uint32_t j, Variant variant)
+{
+    Vector offset = {__builtin_convertvector(place[0] - data->x[0][j], WeirLanes),
+                     __builtin_convertvector(place[1] - data->x[1][j], WeirLanes),
+                     {0}};
+    if (variant.three_dimensional) offset.z = __builtin_convertvector(place[2] - data->x[2][j], WeirLanes);
+    return offset;
+}
+
+INLINE WeirLanes lanes_power4(WeirLanes a)
+{
+    WeirLanes square = a * a;
+    return square * square;
+}
+
+// max(a - s, 0)
+INLINE WeirLanes rest_to(float a, WeirLanes s)
+{
+    WeirLanes zero = {0};
+    return weir_lanes_max(weir_lanes_fill(a) - s, zero);
+}
+
+// W / kernel_factor at s = r / R.
+INLINE WeirLanes kernel_shape(WeirLanes s, Variant variant)
+{
+    if (variant.kernel == WEIR_KERNEL_CUBIC) {
+        WeirLanes q = s * 2.0f, far = rest_to(2.0f, q), near = rest_to(1.0f, q);
+        return far * far * far * 0.25f - near * near * near;
+    }
+    if (variant.kernel == WEIR_KERNEL_QUINTIC) {
+        WeirLanes q = s * 3.0f, a = rest_to(3.0f, q), b = rest_to(2.0f, q), c = rest_to(1.0f, q);
+        return lanes_power4(a) * a - lanes_power4(b) * b * 6.0f + lanes_power4(c) * c * 15.0f;
+    }
+    return lanes_power4(rest_to(1.0f, s)) * (s * 4.0f + 1.0f);
+}
+
+// F^ at s.
+INLINE WeirLanes kernel_slope(WeirLanes s, Variant variant)
+{
+    if (variant.kernel == WEIR_KERNEL_CUBIC) {
+        WeirLanes q = s * 2.0f, far = rest_to(2.0f, q), near = rest_to(1.0f, q);
+        return (far * far * 0.75f - near * near * 3.0f) / weir_lanes_max(q, weir_lanes_fill(1e-6f));
+    }
+    if (variant.kernel == WEIR_KERNEL_QUINTIC) {
+        WeirLanes q = s * 3.0f, a = rest_to(3.0f, q), b = rest_to(2.0f, q), c = rest_to(1.0f, q);
+        WeirLanes sum = lanes_power4(a) - lanes_power4(b) * 6.0f + lanes_power4(c) * 15.0f;
+        return sum * 5.0f / weir_lanes_max(q, weir_lanes_fill(1e-6f));
+    }
+    WeirLanes rest = rest_to(1.0f, s);
+    return rest * rest * rest;
+}
+
+INLINE void load_place(const WeirWcsphData *data, uint32_t begin, const WeirRun *run, WeirMask place[3])
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        memcpy(&place[axis], data->x[axis] + begin, sizeof place[axis]);
+        place[axis] -= run->shift[axis];
+    }
+}
+
+// Is any of the particles of a kind that a pass works on?
+static bool any_set(const float *flag, uint32_t begin, uint32_t count)
+{
+    for (uint32_t i = begin; i < begin + count; ++i) {
+        if (flag[i] != 0.0f) return true;
+    }
+    return false;
+}
+
+static bool any_solid(const float *is_fluid, uint32_t begin, uint32_t count)
+{
+    for (uint32_t i = begin; i < begin + count; ++i) {
+        if (is_fluid[i] == 0.0f) return true;
+    }
+    return false;
+}
+
+// ---- walls: what solid particles see of the fluid (Adami, Hu, Adams 2012) ----
+
+INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                        Variant variant)
+{
+    float inverse_support = data->constants->inverse_support;
+    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
+    WeirLanes weight = {0}, pressure = {0};
+    Vector mean = {{0}, {0}, {0}}, moment = {{0}, {0}, {0}};
+    for (uint32_t n = 0; n < group->run_count; ++n) {
+        WeirMask place[3];
+        load_place(data, begin, &group->run[n], place);
+        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
+            if (data->is_fluid[j] == 0.0f) continue;
+            Vector x = offset_to(data, place, j, variant);
+            WeirLanes r2 = dot(x, x, variant);
+            if (!weir_lanes_any_below(r2, support2)) continue;
+            WeirLanes w = kernel_shape(weir_lanes_sqrt(r2) * inverse_support, variant);
+            weight += w;
+            pressure += w * data->pressure[j];
+            mean.x += w * data->velocity[0][j];
+            mean.y += w * data->velocity[1][j];
+            if (variant.three_dimensional) mean.z += w * data->velocity[2][j];
+            add_scaled(&moment, w * data->density[j], x, variant);
+        }
+    }
+    for (uint32_t lane = 0; lane < group->lanes; ++lane) {
+        uint32_t i = begin + lane;
+        if (data->is_fluid[i] != 0.0f) continue;
+        float total = weight[lane], inverse = total > 1e-12f ? 1.0f / total : 0.0f;
+        float scale = inverse * data->constants->quantum;
+        data->weight[i] = inverse > 0.0f ? total : 0.0f;
+        data->pressure[i] = pressure[lane] * inverse;
+        data->seen_velocity[0][i] = mean.x[lane] * inverse;
+        data->seen_velocity[1][i] = mean.y[lane] * inverse;
+        data->seen_velocity[2][i] = mean.z[lane] * inverse;
+        data->extrapolated[0][i] = moment.x[lane] * scale;
+        data->extrapolated[1][i] = moment.y[lane] * scale;
+        data->extrapolated[2][i] = moment.z[lane] * scale;
+    }
+}
+
+// ---- forces ----
+
+// The sums of `forces`, without their factors.
+typedef struct ForceSums {
+    Vector pressure;   // sum p_j / rho_j F^ x
+    Vector gradient;   // sum 1 / rho_j F^ x
+    Vector clustering; // sum 1 / rho_j (W / W(spacing))^4 F^ x
+    Vector artificial; // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, fluid only
+    Vector laminar;    // sum 1 / rho_j F^ v
+    WeirLanes surface; // sum 1 / rho_j F^ r^2
+} ForceSums;
+
+// `solids`: the lanes are solid particles, on which only the fluid acts.
+INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                            Variant variant, bool solids)
+{
+    const WeirConstants *constants = data->constants;
+    float inverse_support = constants->inverse_support, inverse_spacing = 1.0f / constants->spacing_value;
+    float h = constants->smoothing_length * constants->inverse_quantum, soft = 0.01f * h * h;
+    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
+    WeirLanes stick_i = weir_lanes_load(data->stick + begin),
+              fluid_i = weir_lanes_load(data->is_fluid + begin);
+    Vector vi = load((const float *const *)data->seen_velocity, begin, variant);
+    ForceSums sums = {0};
+    for (uint32_t n = 0; n < group->run_count; ++n) {
+        WeirMask place[3];
+        load_place(data, begin, &group->run[n], place);
+        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
+            if (solids && data->is_fluid[j] == 0.0f) continue;
+            Vector x = offset_to(data, place, j, variant);
+            WeirLanes r2 = dot(x, x, variant);
+            if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
+            WeirLanes s = weir_lanes_sqrt(r2) * inverse_support;
+            WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
+            Vector v = {vi.x - data->seen_velocity[0][j], vi.y - data->seen_velocity[1][j], {0}};
+            if (variant.three_dimensional) v.z = vi.z - data->seen_velocity[2][j];
+            add_scaled(&sums.pressure, slope * data->pressure[j], x, variant);
+            add_scaled(&sums.gradient, slope, x, variant);
+            WeirLanes approach = dot(v, x, variant) / (r2 + soft) * slope * (fluid_i * data->is_fluid[j]);
+            add_scaled(&sums.artificial, approach, x, variant);
+            add_scaled(&sums.laminar, slope * (stick_i * data->stick[j]), v, variant);
+            if (solids) continue;
+            WeirLanes near = lanes_power4(kernel_shape(s, variant) * inverse_spacing);
+            add_scaled(&sums.clustering, slope * near, x, variant);
+            sums.surface += slope * r2;
+        }
+    }
+    return sums;
+}
+
+// Acceleration by pressure and viscosity of lane `lane`; `tension`: a negative own pressure acts by its difference.
+static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums, uint32_t lane, uint32_t i,
+                                bool tension)
+{
+    const WeirConstants *constants = data->constants;
+    float own = data->pressure[i];
+    if (tension && own < 0.0f) own = -own;
+    float common = constants->particle_mass * data->inverse_density[i] * constants->gradient_factor;
+    float pressure = -common * constants->quantum;
+    float laminar = common * 2.0f * data->parameters->viscosity,
+          artificial = common * constants->artificial_factor;
+    const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x;
+    const WeirLanes *a = &sums->artificial.x, *l = &sums->laminar.x;
+    for (int axis = 0; axis < 3; ++axis) {
+        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
+                                      artificial * a[axis][lane] + laminar * l[axis][lane];
+    }
+}
+
+// Acceleration that the pointer tool adds to a particle: falls off linearly to zero at the tool's radius.
+static void add_tool(const WeirWcsphData *data, uint32_t i, const float place[3])
+{
+    const WeirConstants *constants = data->constants;
+    float offset[3], distance2 = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        offset[axis] = place[axis] - constants->tool_position[axis];
+        if (axis < (int)constants->dimension) distance2 += offset[axis] * offset[axis];
+    }
+    float distance = sqrtf(distance2);
+    if (!(distance < constants->tool_radius)) return;
+    float strength = constants->tool_strength * (1.0f - distance / constants->tool_radius);
+    for (int axis = 0; axis < (int)constants->dimension; ++axis) {
+        if (constants->tool_kind == WEIR_TOOL_STIR) {
+            data->acceleration[axis][i] +=
+                strength * (constants->tool_velocity[axis] - data->velocity[axis][i]);
+        } else if (distance > 0.0f) {
+            float outward = strength * offset[axis] / distance;
+            data->acceleration[axis][i] += constants->tool_kind == WEIR_TOOL_PULL ? -outward : outward;
+        }
+    }
+}
+
+static void add_body_forces(const WeirWcsphData *data, uint32_t i)
+{
+    const WeirConstants *constants = data->constants;
+    float place[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        place[axis] = constants->origin[axis] + (float)data->x[axis][i] * constants->quantum;
+        float pull = data->parameters->central_force * (place[axis] - constants->center[axis]);
+        data->acceleration[axis][i] += data->parameters->gravity[axis];
+        if (axis < (int)constants->dimension) data->acceleration[axis][i] -= pull;
+    }
+    if (constants->dimension == 2) data->acceleration[2][i] = 0.0f;
+    if (constants->tool_kind != WEIR_TOOL_NONE) add_tool(data, i, place);
+}
+
+// Particle shifting (Sun et al. 2017) where the surface number says that the support is full (Lee et al. 2008).
+static void finish_shift(const WeirWcsphData *data, const ForceSums *sums, uint32_t lane, uint32_t i,
+                         bool inside)
+{
+    const WeirConstants *constants = data->constants;
+    float most = 0.25f * data->max_speed;
+    float factor = -data->parameters->shifting * 2.0f * constants->smoothing_length * data->max_speed *
+                   constants->particle_mass * constants->gradient_factor * constants->quantum;
+    const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
+    float u[3], u2 = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        u[axis] = inside ? factor * (g[axis][lane] + 0.2f * c[axis][lane]) : 0.0f;
+        u2 += u[axis] * u[axis];
+    }
+    float length = sqrtf(u2), scale = length > most ? most / length : 1.0f;
+    for (int axis = 0; axis < 3; ++axis) data->shift[axis][i] = scale * u[axis];
+}
+
+INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                         Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    bool tension = data->parameters->tension_control == WEIR_TENSION_CONTROL_ON;
+    float full =
+        -constants->particle_mass * constants->gradient_factor * constants->quantum * constants->quantum;
+    if (any_set(data->is_fluid, begin, group->lanes)) {
+        ForceSums sums = sum_forces(data, group, begin, variant, false);
+        for (uint32_t lane = 0; lane < group->lanes; ++lane) {
+            uint32_t i = begin + lane;
+            if (data->is_fluid[i] == 0.0f) continue;
+            bool inside = full * sums.surface[lane] >= 0.95f * (float)constants->dimension;
+            finish_acceleration(data, &sums, lane, i, tension && inside);
+            add_body_forces(data, i);
+            finish_shift(data, &sums, lane, i, inside);
+        }
+    }
+    if (any_set(data->needs_force, begin, group->lanes)) {
+        ForceSums sums = sum_forces(data, group, begin, variant, true);
+        for (uint32_t lane = 0; lane < group->lanes; ++lane) {
+            if (data->needs_force[begin + lane] != 0.0f)
+                finish_acceleration(data, &sums, lane, begin + lane, false);
+        }
+    }
+}
+
+// ---- continuity with density diffusion (Fourtakas et al. 2019) ----
+
+INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                             Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    const WeirParameters *parameters = data->parameters;
+    float inverse_support = constants->inverse_support, c0 = constants->sound_speed;
+    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
+    float hydrostatic[3]; // density by height, per quantum
+    for (int axis = 0; axis < 3; ++axis) {
+        hydrostatic[axis] =
+            parameters->rest_density / (c0 * c0) * parameters->gravity[axis] * constants->quantum;
+    }
+    WeirLanes rho = weir_lanes_load(data->density + begin);
+    Vector vi = load((const float *const *)data->new_velocity, begin, variant);
+    WeirLanes divergence = {0}, diffusion = {0};
+    for (uint32_t n = 0; n < group->run_count; ++n) {
+        WeirMask place[3];
+        load_place(data, begin, &group->run[n], place);
+        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
+            Vector x = offset_to(data, place, j, variant);
+            WeirLanes r2 = dot(x, x, variant);
+            if (!weir_lanes_any_below(r2, support2)) continue;
+            WeirLanes slope =
+                kernel_slope(weir_lanes_sqrt(r2) * inverse_support, variant) * data->inverse_density[j];
+            Vector v = {vi.x - data->new_velocity[0][j], vi.y - data->new_velocity[1][j], {0}};
+            if (variant.three_dimensional) v.z = vi.z - data->new_velocity[2][j];
+            divergence += slope * dot(v, x, variant);
+            // rho_j - rho_i less what the height between them makes
+            WeirLanes excess = data->density[j] - rho + x.x * hydrostatic[0] + x.y * hydrostatic[1];
+            if (variant.three_dimensional) excess += x.z * hydrostatic[2];
+            diffusion += slope * excess * data->is_fluid[j];
+        }
+    }
+    float volume = constants->particle_mass * constants->gradient_factor;
+    float compress = volume * constants->quantum;
+    float diffuse = -volume * 2.0f * parameters->density_diffusion * constants->smoothing_length * c0;
+    for (uint32_t lane = 0; lane < group->lanes; ++lane) {
+        uint32_t i = begin + lane;
+        if (data->is_fluid[i] != 0.0f)
+            data->rate[i] = rho[lane] * compress * divergence[lane] + diffuse * diffusion[lane];
+    }
+}
+
+// ---- The passes: one copy per dimension and kind of kernel ----
+
+#define PASS(name, wanted, flag)                                                                             \
+    static void name(const WeirWcsphData *data, uint32_t begin, uint32_t end)                                \
+    {                                                                                                        \
+        bool deep = data->constants->dimension == 3;                                                         \
+        uint32_t kernel = data->parameters->kernel;                                                          \
+        for (uint32_t i = begin; i < end;) {                                                                 \
+            WeirLaneGroup group;                                                                             \
+            WeirBounds bounds = weir_take_lanes(data->constants, data->x, i, end, &group);                   \
+            if (wanted(data->flag, i, group.lanes)) {                                                        \
+                weir_find_runs(data->constants, data->cell_start, &bounds, &group);                          \
+                if (kernel != WEIR_KERNEL_WENDLAND) {                                                        \
+                    name##_group(data, &group, i, (Variant){deep, kernel});                                  \
+                } else if (deep) {                                                                           \
+                    name##_group(data, &group, i, (Variant){true, WEIR_KERNEL_WENDLAND});                    \
+                } else {                                                                                     \
+                    name##_group(data, &group, i, (Variant){false, WEIR_KERNEL_WENDLAND});                   \
+                }                                                                                            \
+            }                                                                                                \
+            i += group.lanes;                                                                                \
+        }                                                                                                    \
+    }
+
+// Fluid lanes always want their forces, solid ones where somebody asks.
+static bool wants_forces(const WeirWcsphData *data, uint32_t begin, uint32_t count)
+{
+    return any_set(data->is_fluid, begin, count) || any_set(data->needs_force, begin, count);
+}
+#define WANTS_FORCES(flag, begin, count) wants_forces(data, begin, count)
+
+PASS(walls, any_solid, is_fluid)
+PASS(forces, WANTS_FORCES, is_fluid)
+PASS(continuity, any_set, is_fluid)
+
+const WeirWcsphPasses WEIR_WCSPH_PASSES = {WEIR_SIMD_NAME, walls, forces, continuity};

@@ -1,0 +1,248 @@
+// Walls and bodies in the step: what their particles see of the fluid, the forces on them, contact.
+#include "core/cpu/runs.h"
+#include "core/cpu/wcsph.h"
+
+#include <string.h>
+
+static const WeirSolid *solid_of(const WeirWcsph *solver, uint32_t group)
+{
+    return &solver->world.solids[group - WEIR_GROUP_SOLID];
+}
+
+static bool is_moving(const WeirSolid *solid)
+{
+    return solid->kind != WEIR_SOLID_FIXED;
+}
+
+static const float *local_of(const WeirWcsph *solver, uint32_t id)
+{
+    return solver->local + 3 * (size_t)(id - solver->constants.first_solid);
+}
+
+// ---- Velocities and places ----
+
+typedef struct Velocities {
+    WeirWcsph *solver;
+    float *const *velocity;
+} Velocities;
+
+static void velocities_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    const Velocities *target = context;
+    const WeirWcsph *solver = target->solver;
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t group = solver->sorted.group[i];
+        if (!weir_group_is_solid(group)) continue;
+        const WeirSolid *solid = solid_of(solver, group);
+        float place[3], v[3] = {0.0f, 0.0f, 0.0f};
+        if (is_moving(solid))
+            weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
+                             local_of(solver, solver->sorted.id[i]), place, v);
+        for (int axis = 0; axis < 3; ++axis)
+            target->velocity[axis][i] = v[axis] + solid->surface_velocity[axis];
+    }
+}
+
+void weir_wcsph_solid_velocities(WeirWcsph *solver, float *const velocity[3])
+{
+    if (solver->world.solid_count == 0) return;
+    Velocities target = {solver, velocity};
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, velocities_chunk, &target);
+}
+
+typedef struct Places {
+    WeirWcsph *solver;
+    WeirWcsphParticles *particles;
+} Places;
+
+static void places_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    const Places *target = context;
+    const WeirWcsph *solver = target->solver;
+    const WeirConstants *constants = &solver->constants;
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t group = target->particles->group[i];
+        if (!weir_group_is_solid(group) || !is_moving(solid_of(solver, group))) continue;
+        float place[3], v[3];
+        weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
+                         local_of(solver, target->particles->id[i]), place, v);
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            double away = rint(((double)place[axis] - constants->origin[axis]) / constants->quantum);
+            if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
+            target->particles->x[axis][i] = fabs(away) < 2e9 ? (int32_t)away : 0;
+        }
+    }
+}
+
+void weir_wcsph_place_solids(WeirWcsph *solver, WeirWcsphParticles *particles)
+{
+    Places target = {solver, particles};
+    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, places_chunk, &target);
+}
+
+// ---- walls ----
+
+static void cross(const float a[3], const float b[3], float result[3])
+{
+    result[0] = a[1] * b[2] - a[2] * b[1];
+    result[1] = a[2] * b[0] - a[0] * b[2];
+    result[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+// Acceleration of the solid at sorted particle i: a + alpha x r + w x (w x r).
+static void acceleration_at(const WeirWcsph *solver, uint32_t i, uint32_t group, float a[3])
+{
+    const WeirSolidState *state = &solver->solids[group - WEIR_GROUP_SOLID];
+    float place[3], v[3], arm[3], swing[3], spin[3], pull[3];
+    memset(a, 0, 3 * sizeof *a);
+    if (!is_moving(solid_of(solver, group))) return;
+    weir_solid_point(state, local_of(solver, solver->sorted.id[i]), place, v);
+    for (int axis = 0; axis < 3; ++axis) arm[axis] = place[axis] - state->position[axis];
+    cross(state->angular_acceleration, arm, swing);
+    cross(state->angular_velocity, arm, spin);
+    cross(state->angular_velocity, spin, pull);
+    for (int axis = 0; axis < 3; ++axis) a[axis] = state->acceleration[axis] + swing[axis] + pull[axis];
+}
+
+static void walls_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    const WeirWcsphData *data = &solver->data;
+    const WeirParameters *parameters = &solver->parameters;
+    float stiffness = solver->constants.sound_speed * solver->constants.sound_speed;
+    solver->passes->walls(data, begin, end);
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t group = solver->sorted.group[i];
+        if (!weir_group_is_solid(group)) continue;
+        float pressure = 0.0f;
+        if (data->weight[i] > 0.0f) {
+            float a[3];
+            acceleration_at(solver, i, group, a);
+            pressure = data->pressure[i];
+            for (int axis = 0; axis < 3; ++axis)
+                pressure += (parameters->gravity[axis] - a[axis]) * data->extrapolated[axis][i];
+            if (pressure < 0.0f) pressure = 0.0f;
+            for (int axis = 0; axis < 3; ++axis)
+                data->seen_velocity[axis][i] = 2.0f * data->velocity[axis][i] - data->seen_velocity[axis][i];
+        } else {
+            for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][i] = data->velocity[axis][i];
+        }
+        data->pressure[i] = pressure;
+        data->density[i] =
+            parameters->rest_density + (pressure - parameters->background_pressure) / stiffness;
+        data->inverse_density[i] = 1.0f / data->density[i];
+    }
+}
+
+void weir_wcsph_walls(WeirWcsph *solver)
+{
+    if (solver->world.solid_count == 0) return;
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, walls_chunk, solver);
+}
+
+// ---- Forces on solids ----
+
+// Penalty contact of sorted particle i, of a free body, with the particles of other solids closer than one spacing:
+// stiff as the fluid, half damped.
+static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
+{
+    const WeirConstants *constants = &solver->constants;
+    const WeirWcsphData *data = &solver->data;
+    float spacing = solver->parameters.particle_spacing, mass = constants->particle_mass;
+    float c0 = constants->sound_speed, stiffness = 0.25f * mass * c0 * c0 / (spacing * spacing);
+    float damping = 0.5f * mass * c0 / spacing;
+    WeirLaneGroup group;
+    WeirBounds bounds = weir_take_lanes(constants, data->x, i, i + 1, &group);
+    weir_find_runs(constants, data->cell_start, &bounds, &group);
+    memset(force, 0, 3 * sizeof *force);
+    for (uint32_t n = 0; n < group.run_count; ++n) {
+        for (uint32_t j = group.run[n].begin; j < group.run[n].end; ++j) {
+            if (!weir_group_is_solid(solver->sorted.group[j]) ||
+                solver->sorted.group[j] == solver->sorted.group[i])
+                continue;
+            float x[3], r2 = 0.0f, approach = 0.0f;
+            for (int axis = 0; axis < 3; ++axis) {
+                x[axis] = (float)(data->x[axis][i] - group.run[n].shift[axis] - data->x[axis][j]) *
+                          constants->quantum;
+                r2 += x[axis] * x[axis];
+                approach += (data->velocity[axis][i] - data->velocity[axis][j]) * x[axis];
+            }
+            if (r2 >= spacing * spacing || r2 == 0.0f) continue;
+            float r = sqrtf(r2), push = stiffness * (spacing - r) - damping * approach / r;
+            if (push <= 0.0f) continue;
+            for (int axis = 0; axis < 3; ++axis) force[axis] += push * x[axis] / r;
+        }
+    }
+}
+
+static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    WeirWcsph *solver = context;
+    const WeirWcsphData *data = &solver->data;
+    for (uint32_t i = begin; i < end; ++i) {
+        if (data->needs_force[i] == 0.0f) continue;
+        float *force =
+            solver->solid_force + 6 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
+        for (int axis = 0; axis < 3; ++axis)
+            force[axis] = solver->constants.particle_mass * data->acceleration[axis][i];
+        if (solid_of(solver, solver->sorted.group[i])->kind == WEIR_SOLID_FREE)
+            contact_at(solver, i, force + 3);
+    }
+}
+
+// Sums columns [0, 3) (fluid) or [3, 6) (contact) of the particles' forces in order of id, in double precision.
+static void sum_forces(const WeirWcsph *solver, uint32_t n, int column, float force[3], float torque[3])
+{
+    const WeirSolid *solid = &solver->world.solids[n];
+    double total[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
+    for (uint32_t k = 0; k < solid->count; ++k) {
+        uint32_t id = solid->first + k;
+        const float *f = solver->solid_force + 6 * (size_t)(id - solver->constants.first_solid) + column;
+        float place[3], v[3], arm[3], turn[3];
+        weir_solid_point(&solver->solids[n], local_of(solver, id), place, v);
+        for (int axis = 0; axis < 3; ++axis) arm[axis] = place[axis] - solver->solids[n].position[axis];
+        cross(arm, f, turn);
+        for (int axis = 0; axis < 3; ++axis) {
+            total[axis] += f[axis];
+            moment[axis] += turn[axis];
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        force[axis] = (float)total[axis];
+        torque[axis] = (float)moment[axis];
+    }
+}
+
+void weir_wcsph_sum_solid_forces(WeirWcsph *solver)
+{
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, particle_forces_chunk, solver);
+    for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
+        if (solver->world.solids[n].kind == WEIR_SOLID_FREE || solver->forces_wanted)
+            sum_forces(solver, n, 0, solver->solids[n].force, solver->solids[n].torque);
+    }
+}
+
+void weir_wcsph_solids(WeirWcsph *solver)
+{
+    if (!solver->has_moving_solids) return;
+    if (solver->has_free_bodies) weir_wcsph_sum_solid_forces(solver);
+    uint32_t count = solver->world.solid_count;
+    // Contact moves the body, but the force that is told is the fluid's.
+    for (uint32_t n = 0; n < count; ++n) {
+        WeirSolidState *state = &solver->solids[n];
+        if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
+        float force[3], torque[3];
+        sum_forces(solver, n, 3, force, torque);
+        for (int axis = 0; axis < 3; ++axis) {
+            state->force[axis] += force[axis];
+            state->torque[axis] += torque[axis];
+        }
+    }
+    weir_solids_kick(&solver->world, solver->parameters.gravity, solver->clock.time, solver->dt,
+                     solver->solids);
+    for (uint32_t n = 0; n < count; ++n) {
+        if (solver->world.solids[n].kind == WEIR_SOLID_FREE)
+            sum_forces(solver, n, 0, solver->solids[n].force, solver->solids[n].torque);
+    }
+}

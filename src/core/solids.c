@@ -1,0 +1,255 @@
+#include "core/solids.h"
+
+#include <math.h>
+#include <string.h>
+
+// ---- Small vectors ----
+
+static void cross(const float a[3], const float b[3], float result[3])
+{
+    result[0] = a[1] * b[2] - a[2] * b[1];
+    result[1] = a[2] * b[0] - a[0] * b[2];
+    result[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+// v turned by the unit quaternion q: v + 2 w (u x v) + 2 u x (u x v), u the vector part.
+static void rotate(const float q[4], const float v[3], float result[3])
+{
+    float once[3], twice[3];
+    cross(q, v, once);
+    cross(q, once, twice);
+    for (int axis = 0; axis < 3; ++axis) result[axis] = v[axis] + 2.0f * (q[3] * once[axis] + twice[axis]);
+}
+
+// Sine and cosine by their series after reduction to [-pi/4, pi/4]: libm's differ in the last bit between targets.
+static void sine_cosine(double angle, double *sine, double *cosine)
+{
+    static const double half_pi = 1.57079632679489661923;
+    double turns = floor(angle / half_pi + 0.5);
+    double x = angle - turns * half_pi, x2 = x * x;
+    double s =
+        x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72 * (1 - x2 / 110 * (1 - x2 / 156))))));
+    double c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56 * (1 - x2 / 90 * (1 - x2 / 132)))));
+    int quarter = (int)(turns - 4.0 * floor(turns / 4.0));
+    *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+    *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+}
+
+// Unit quaternion of a rotation given as angle times axis.
+static void rotation_quaternion(const float rotation[3], float q[4])
+{
+    double angle2 = 0.0, sine, cosine;
+    for (int axis = 0; axis < 3; ++axis) angle2 += (double)rotation[axis] * rotation[axis];
+    double angle = sqrt(angle2);
+    sine_cosine(0.5 * angle, &sine, &cosine);
+    double scale = angle > 1e-12 ? sine / angle : 0.5;
+    for (int axis = 0; axis < 3; ++axis) q[axis] = (float)(scale * rotation[axis]);
+    q[3] = (float)cosine;
+}
+
+// q after a turn with angular velocity w (world frame) over dt: q + dt/2 (w, 0) q, normalised.
+static void turn(float q[4], const float w[3], float dt)
+{
+    float part[3], half = 0.5f * dt;
+    cross(w, q, part);
+    float scalar = -half * (w[0] * q[0] + w[1] * q[1] + w[2] * q[2]);
+    for (int axis = 0; axis < 3; ++axis) part[axis] = half * (part[axis] + q[3] * w[axis]);
+    for (int axis = 0; axis < 3; ++axis) q[axis] += part[axis];
+    q[3] += scalar;
+    float scale = 1.0f / sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int k = 0; k < 4; ++k) q[k] *= scale;
+}
+
+// ---- Prescribed motion ----
+
+// Cubic Hermite between (f0, d0) and (f1, d1) at the share s of an interval `length`, and its rate.
+static void hermite(double s, double length, const float f0[3], const float d0[3], const float f1[3],
+                    const float d1[3], float value[3], float rate[3])
+{
+    double s2 = s * s, s3 = s2 * s;
+    for (int axis = 0; axis < 3; ++axis) {
+        double a = f0[axis], b = length * d0[axis], c = f1[axis], d = length * d1[axis];
+        value[axis] = (float)((2 * s3 - 3 * s2 + 1) * a + (s3 - 2 * s2 + s) * b + (3 * s2 - 2 * s3) * c +
+                              (s3 - s2) * d);
+        rate[axis] =
+            (float)(((6 * s2 - 6 * s) * (a - c) + (3 * s2 - 4 * s + 1) * b + (3 * s2 - 2 * s) * d) / length);
+    }
+}
+
+void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time, WeirMotionRow *now)
+{
+    double first = rows[0].time, last = rows[count - 1].time;
+    if (repeats && last > first && time > last) time = first + fmod(time - first, last - first);
+    bool before = time <= first, after = time >= last;
+    if (before || after || count == 1) {
+        *now = rows[before ? 0 : count - 1];
+        // Outside its table a motion stands still.
+        memset(now->displacement_rate, 0, sizeof now->displacement_rate);
+        memset(now->rotation_rate, 0, sizeof now->rotation_rate);
+        now->time = (float)time;
+        return;
+    }
+    uint32_t low = 0, high = count - 1; // rows[low].time <= time < rows[high].time
+    while (high - low > 1) {
+        uint32_t middle = (low + high) / 2;
+        if ((double)rows[middle].time <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    const WeirMotionRow *a = &rows[low], *b = &rows[high];
+    double length = (double)b->time - a->time, s = (time - a->time) / length;
+    *now = (WeirMotionRow){.time = (float)time};
+    hermite(s, length, a->displacement, a->displacement_rate, b->displacement, b->displacement_rate,
+            now->displacement, now->displacement_rate);
+    hermite(s, length, a->rotation, a->rotation_rate, b->rotation, b->rotation_rate, now->rotation,
+            now->rotation_rate);
+}
+
+static void motion_of(const WeirWorld *world, const WeirSolid *solid, double time, WeirMotionRow *now)
+{
+    weir_motion_at(world->motion + solid->motion_first, solid->motion_count, solid->motion_repeats, time,
+                   now);
+}
+
+static void place_driven(const WeirWorld *world, const WeirSolid *solid, double time, WeirSolidState *state)
+{
+    WeirMotionRow now;
+    motion_of(world, solid, time, &now);
+    for (int axis = 0; axis < 3; ++axis)
+        state->position[axis] = solid->position[axis] + now.displacement[axis];
+    rotation_quaternion(now.rotation, state->orientation);
+}
+
+static bool is_driven(const WeirSolid *solid)
+{
+    return solid->kind == WEIR_SOLID_DRIVEN && solid->motion_count > 0;
+}
+
+void weir_solids_start(const WeirWorld *world, WeirSolidState *states)
+{
+    for (uint32_t n = 0; n < world->solid_count; ++n) {
+        const WeirSolid *solid = &world->solids[n];
+        states[n] = (WeirSolidState){.orientation = {0.0f, 0.0f, 0.0f, 1.0f}};
+        memcpy(states[n].position, solid->position, sizeof states[n].position);
+        memcpy(states[n].velocity, solid->velocity, sizeof states[n].velocity);
+        memcpy(states[n].angular_velocity, solid->angular_velocity, sizeof states[n].angular_velocity);
+        if (!is_driven(solid)) continue;
+        WeirMotionRow now;
+        motion_of(world, solid, 0.0, &now);
+        place_driven(world, solid, 0.0, &states[n]);
+        memcpy(states[n].velocity, now.displacement_rate, sizeof now.displacement_rate);
+        memcpy(states[n].angular_velocity, now.rotation_rate, sizeof now.rotation_rate);
+    }
+}
+
+// ---- Rigid bodies ----
+
+// I^-1 v in world coordinates: R I0^-1 R^T v.
+static void apply_inverse_inertia(const WeirSolid *solid, const WeirSolidState *state, const float v[3],
+                                  float result[3])
+{
+    const float back[4] = {-state->orientation[0], -state->orientation[1], -state->orientation[2],
+                           state->orientation[3]};
+    float local[3], turned[3];
+    rotate(back, v, local);
+    for (int row = 0; row < 3; ++row) {
+        const float *m = solid->inverse_inertia[row];
+        turned[row] = m[0] * local[0] + m[1] * local[1] + m[2] * local[2];
+    }
+    rotate(state->orientation, turned, result);
+}
+
+// I0 from its inverse (adjugate over determinant); zero where the body cannot turn.
+static void inertia(const WeirSolid *solid, float matrix[3][3])
+{
+    float rows[3][3];
+    for (int k = 0; k < 3; ++k)
+        cross(solid->inverse_inertia[(k + 1) % 3], solid->inverse_inertia[(k + 2) % 3], rows[k]);
+    const float *first = solid->inverse_inertia[0];
+    float determinant = first[0] * rows[0][0] + first[1] * rows[0][1] + first[2] * rows[0][2];
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) matrix[a][b] = determinant != 0.0f ? rows[b][a] / determinant : 0.0f;
+    }
+}
+
+// w x (I w), world coordinates; 0 in 2D, where w is an axis of inertia.
+static void gyroscopic(const WeirSolid *solid, const WeirSolidState *state, float torque[3])
+{
+    const float back[4] = {-state->orientation[0], -state->orientation[1], -state->orientation[2],
+                           state->orientation[3]};
+    float matrix[3][3], local[3], momentum[3], world[3];
+    inertia(solid, matrix);
+    rotate(back, state->angular_velocity, local);
+    for (int row = 0; row < 3; ++row)
+        momentum[row] = matrix[row][0] * local[0] + matrix[row][1] * local[1] + matrix[row][2] * local[2];
+    rotate(state->orientation, momentum, world);
+    cross(state->angular_velocity, world, torque);
+}
+
+static void kick_free(const WeirSolid *solid, const float gravity[4], float dt, WeirSolidState *state)
+{
+    float torque[3], spin[3], alpha[3];
+    gyroscopic(solid, state, spin);
+    for (int axis = 0; axis < 3; ++axis) torque[axis] = state->torque[axis] - spin[axis];
+    apply_inverse_inertia(solid, state, torque, alpha);
+    for (int axis = 0; axis < 3; ++axis) {
+        float a = solid->mass > 0.0f ? state->force[axis] / solid->mass + gravity[axis] : 0.0f;
+        state->acceleration[axis] = a * solid->freedom[axis];
+        state->angular_acceleration[axis] = alpha[axis] * solid->angular_freedom[axis];
+        state->velocity[axis] += dt * state->acceleration[axis];
+        state->angular_velocity[axis] += dt * state->angular_acceleration[axis];
+    }
+}
+
+// Mean velocities over the step, so that the second half's drift ends where the motion is.
+static void kick_driven(const WeirWorld *world, const WeirSolid *solid, double time, float dt,
+                        WeirSolidState *state)
+{
+    WeirMotionRow begin, end;
+    motion_of(world, solid, time, &begin);
+    motion_of(world, solid, time + dt, &end);
+    for (int axis = 0; axis < 3; ++axis) {
+        float v = dt > 0.0f ? (end.displacement[axis] - begin.displacement[axis]) / dt : 0.0f;
+        float w = dt > 0.0f ? (end.rotation[axis] - begin.rotation[axis]) / dt : 0.0f;
+        // A table that starts anew jumps back: the rate is the table's own there.
+        if (solid->motion_repeats && end.time < begin.time)
+            v = end.displacement_rate[axis], w = end.rotation_rate[axis];
+        state->acceleration[axis] = dt > 0.0f ? (v - state->velocity[axis]) / dt : 0.0f;
+        state->angular_acceleration[axis] = dt > 0.0f ? (w - state->angular_velocity[axis]) / dt : 0.0f;
+        state->velocity[axis] = v;
+        state->angular_velocity[axis] = w;
+    }
+}
+
+void weir_solids_kick(const WeirWorld *world, const float gravity[4], double time, float dt,
+                      WeirSolidState *states)
+{
+    for (uint32_t n = 0; n < world->solid_count; ++n) {
+        const WeirSolid *solid = &world->solids[n];
+        if (solid->kind == WEIR_SOLID_FREE) kick_free(solid, gravity, dt, &states[n]);
+        if (is_driven(solid)) kick_driven(world, solid, time, dt, &states[n]);
+    }
+}
+
+void weir_solids_drift(const WeirWorld *world, double time, float dt, WeirSolidState *states)
+{
+    for (uint32_t n = 0; n < world->solid_count; ++n) {
+        const WeirSolid *solid = &world->solids[n];
+        if (is_driven(solid)) place_driven(world, solid, time, &states[n]);
+        if (solid->kind != WEIR_SOLID_FREE) continue;
+        for (int axis = 0; axis < 3; ++axis) states[n].position[axis] += dt * states[n].velocity[axis];
+        turn(states[n].orientation, states[n].angular_velocity, dt);
+    }
+}
+
+void weir_solid_point(const WeirSolidState *state, const float local[3], float position[3], float velocity[3])
+{
+    float arm[3], swing[3];
+    rotate(state->orientation, local, arm);
+    cross(state->angular_velocity, arm, swing);
+    for (int axis = 0; axis < 3; ++axis) {
+        position[axis] = state->position[axis] + arm[axis];
+        velocity[axis] = state->velocity[axis] + swing[axis];
+    }
+}
