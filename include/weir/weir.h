@@ -77,11 +77,13 @@ void weir_scene_destroy(WeirScene *scene); // NULL is allowed
 
 // Set one value by path. WEIR_ERROR_INPUT if the path is unknown, the type is wrong or the value is out of
 // range; the scene is unchanged then and weir_scene_error() says why. Array items are made in order:
-// "fluid[0]" first, then "fluid[1]".
+// "fluid[0]" first, then "fluid[1]". Method, then dimension, come before everything that has vectors. Lists of
+// points, triangles and table rows are set one by one ("walls[0].polygon[3]") or all at once as one flat list.
 WeirStatus weir_scene_set_number(WeirScene *scene, const char *path, double value);
 WeirStatus weir_scene_set_numbers(WeirScene *scene, const char *path, const double *values, size_t count);
 WeirStatus weir_scene_set_string(WeirScene *scene, const char *path, const char *value);
-// For loaders: reports a value at `path` whose type no scene key has (`type_name`, for example "null", "true",
+WeirStatus weir_scene_set_boolean(WeirScene *scene, const char *path, bool value);
+// For loaders: reports a value at `path` whose type no scene key has (`type_name`, for example "null",
 // "an object"). Gives the right message for known and unknown paths; always WEIR_ERROR_INPUT.
 WeirStatus weir_scene_refuse(WeirScene *scene, const char *path, const char *type_name);
 // For command lines: `text` is parsed as the type that the parameter `name` has: "2000", "0,-9.81", "grid".

@@ -1,5 +1,5 @@
 // Scenes by calls: life cycle, getters and the checks of a scene as a whole. Values by path: scene_path.c.
-#include "core/scene.h"
+#include "core/scene_keys.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,12 +20,29 @@ WeirScene *weir_scene_create(void)
 WeirScene *weir_scene_copy(const WeirScene *scene)
 {
     WeirScene *copy = malloc(sizeof *copy);
-    if (copy) *copy = *scene;
-    return copy;
+    if (!copy) return NULL;
+    *copy = *scene;
+    bool copied = true;
+    for (int k = 0; k < WEIR_SCENE_LISTS; ++k) {
+        const WeirSceneList *list = &weir_scene_lists[k];
+        uint32_t count = *(uint32_t *)((char *)copy + list->count_offset);
+        for (uint32_t n = 0; n < count; ++n)
+            copied &= weir_piece_copy_owned(list->owner, (char *)copy + list->offset + n * list->size);
+    }
+    if (copied) return copy;
+    weir_scene_destroy(copy);
+    return NULL;
 }
 
 void weir_scene_destroy(WeirScene *scene)
 {
+    if (!scene) return;
+    for (int k = 0; k < WEIR_SCENE_LISTS; ++k) {
+        const WeirSceneList *list = &weir_scene_lists[k];
+        uint32_t count = *(uint32_t *)((char *)scene + list->count_offset);
+        for (uint32_t n = 0; n < count; ++n)
+            weir_piece_free(list->owner, (char *)scene + list->offset + n * list->size);
+    }
     free(scene);
 }
 
@@ -68,16 +85,6 @@ WeirStatus weir_scene_get_parameter(const WeirScene *scene, const char *name, do
     return WEIR_OK;
 }
 
-WeirStatus weir_scene_set_parameter_text(WeirScene *scene, const char *name, const char *text)
-{
-    int index = weir_parameter_find(name);
-    if (index < 0) {
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%.60s: no such parameter; see `weir params` or docs/parameters.md", name);
-    }
-    return weir_parameter_set_text(&scene->parameters, (uint32_t)index, text, &scene->error);
-}
-
 // ---- Pieces of fluid by calls: the same setters as by path, so that every check is made once. ----
 
 WeirStatus weir_scene_set_domain(WeirScene *scene, const double min[3], const double max[3])
@@ -93,7 +100,7 @@ WeirStatus weir_scene_set_domain(WeirScene *scene, const double min[3], const do
 // Undoes a piece of which only a part was accepted.
 static WeirStatus keep_or_drop(WeirScene *scene, WeirStatus status)
 {
-    if (status) --scene->fluid_count;
+    if (status) memset(&scene->fluid[--scene->fluid_count], 0, sizeof scene->fluid[0]);
     return status;
 }
 

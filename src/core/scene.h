@@ -29,6 +29,8 @@ typedef struct WeirMesh {
     double *vertices;
     uint32_t *triangles;
     uint32_t vertex_count, triangle_count;
+    uint32_t vertex_capacity, triangle_capacity;
+    double scale, translate[3]; // corner = scale * vertex + translate; scale 0: 1
 } WeirMesh;
 
 // A region of space; which of its keys were set is kept so that a missing one can be named.
@@ -39,7 +41,7 @@ typedef struct WeirShape {
     double center[3], radius;
     double from[3], to[3];
     double *points; // polygon: x, y per corner; owned
-    uint32_t point_count;
+    uint32_t point_count, point_capacity;
     WeirMesh mesh; // owned
 } WeirShape;
 
@@ -64,8 +66,10 @@ typedef struct WeirFluid {
 typedef struct WeirMotion {
     double velocity[3], angular_velocity[3];
     double amplitude[3], angle[3], period; // m, rad, s
-    WeirMotionRow *rows;                   // owned
-    uint32_t row_count;
+    bool has_pivot;
+    double pivot[3];     // point that it turns about; the middle of the shape if not given
+    WeirMotionRow *rows; // owned; as given: rates are made with the world
+    uint32_t row_count, row_capacity;
     bool repeats;
 } WeirMotion;
 
@@ -88,11 +92,11 @@ typedef struct WeirSolidPiece {
 typedef struct WeirEmitterPiece {
     bool has_center;
     double center[3], direction[3];
-    double size;      // m
-    double speed;     // m/s
-    double flow_rate; // m^3/s (m^2/s in 2D) instead of speed; 0: not given
-    double start, stop;
-    uint32_t capacity; // most particles that it may have in the domain at a time; 0: chosen from the domain
+    double size;        // m
+    double speed;       // m/s
+    double flow_rate;   // m^3/s (m^2/s in 2D) instead of speed; 0: not given
+    double start, stop; // s; stop 0: never
+    uint32_t capacity;  // most particles that it may have in the domain at a time; 0: chosen from the domain
 } WeirEmitterPiece;
 
 typedef struct WeirDrainPiece {
@@ -124,6 +128,7 @@ struct WeirScene {
     WeirMethod method;
     uint32_t dimension;
     WeirParameters parameters;
+    uint64_t parameters_given; // bit k: parameter k was set
     double domain_min[3], domain_max[3];
     bool periodic[3];     // axes
     bool open[3][2];      // wcsph: sides (axis, low or high) without wall; what passes them is lost

@@ -1,4 +1,4 @@
-// The walk: objects extend the path by ".key", lists of objects by "[index]"; numbers, texts and lists of
+// The walk: objects extend the path by ".key", lists of objects by "[index]"; numbers, texts, booleans and lists of
 // numbers are set; anything else is refused by the core, which knows what the path should hold.
 #include "json/json_scene.h"
 
@@ -11,7 +11,6 @@
 enum {
     MAX_FILE_SIZE = 1 << 20, // a scene is a page of text; a larger file is not a scene
     MAX_PATH = 256,
-    MAX_NUMBERS = 16, // more than any list of a scene holds; the core names the right count
 };
 
 // Path of the value that the walk is at.
@@ -64,19 +63,24 @@ static WeirStatus walk_object(WeirScene *scene, Path *path, const json_t *object
     return WEIR_OK;
 }
 
+static WeirStatus set_numbers(WeirScene *scene, Path *path, const json_t *list)
+{
+    size_t count = json_array_size(list);
+    double few[16], *numbers = count <= 16 ? few : malloc(count * sizeof *numbers);
+    if (!numbers) return weir_scene_refuse(scene, path->text, "longer than memory allows");
+    for (size_t index = 0; index < count; ++index)
+        numbers[index] = json_number_value(json_array_get(list, index));
+    WeirStatus status = weir_scene_set_numbers(scene, path->text, numbers, count);
+    if (numbers != few) free(numbers);
+    return status;
+}
+
 // A list of numbers is one value; anything else is a list of pieces.
 static WeirStatus walk_list(WeirScene *scene, Path *path, const json_t *list)
 {
-    double numbers[MAX_NUMBERS];
     size_t count = json_array_size(list), found = 0, length = path->length;
-    for (size_t index = 0; index < count; ++index) {
-        const json_t *item = json_array_get(list, index);
-        if (!json_is_number(item)) break;
-        if (index < MAX_NUMBERS) numbers[index] = json_number_value(item);
-        ++found;
-    }
-    if (found == count && count > MAX_NUMBERS) return weir_scene_refuse(scene, path->text, "a long list");
-    if (found == count) return weir_scene_set_numbers(scene, path->text, numbers, count);
+    while (found < count && json_is_number(json_array_get(list, found))) ++found;
+    if (found == count) return set_numbers(scene, path, list);
     if (found > 0) return weir_scene_refuse(scene, path->text, "a list of mixed types");
     for (size_t index = 0; index < count; ++index) {
         path_add_index(path, index);
@@ -100,13 +104,29 @@ static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value)
     case JSON_STRING:
         return weir_scene_set_string(scene, path->text, json_string_value(value));
     case JSON_TRUE:
-        return weir_scene_refuse(scene, path->text, "true");
+        return weir_scene_set_boolean(scene, path->text, true);
     case JSON_FALSE:
-        return weir_scene_refuse(scene, path->text, "false");
+        return weir_scene_set_boolean(scene, path->text, false);
     case JSON_NULL:
         break;
     }
     return weir_scene_refuse(scene, path->text, "null");
+}
+
+// The dimension says how long vectors are, and the method which dimensions there are: both come first, wherever
+// the file has them.
+static WeirStatus walk_document(WeirScene *scene, const json_t *document)
+{
+    static const char *const first[] = {"method", "dimension"};
+    for (int k = 0; k < 2; ++k) {
+        const json_t *value = json_object_get(document, first[k]);
+        if (!value) continue;
+        Path path = {.length = 0};
+        path_add_key(&path, first[k]);
+        WeirStatus status = walk(scene, &path, value);
+        if (status) return status;
+    }
+    return walk(scene, &(Path){.length = 0}, document);
 }
 
 // Reads the whole file, from malloc; NULL with the reason in `message`.
@@ -162,8 +182,7 @@ WeirStatus weir_json_load_scene(const char *path, WeirScene **scene, char *messa
         snprintf(message, message_size, "%s: memory ran out", path);
         return WEIR_ERROR_MEMORY;
     }
-    Path position = {.length = 0};
-    WeirStatus status = walk(loaded, &position, document);
+    WeirStatus status = walk_document(loaded, document);
     json_decref(document);
     if (status) {
         snprintf(message, message_size, "%s: %s", path, weir_scene_error(loaded));

@@ -96,6 +96,11 @@ export class Weir {
   loadScene(document: unknown): Scene {
     const scene = new Scene(this.#context);
     try {
+      // The dimension says how long vectors are, and the method which dimensions there are: both come first.
+      if (typeof document === 'object' && document !== null && !Array.isArray(document)) {
+        const given = document as Record<string, unknown>;
+        for (const key of ['method', 'dimension']) if (Object.hasOwn(given, key)) scene.setAll(key, given[key]);
+      }
       scene.setAll('', document);
     } catch (error) {
       scene.destroy();
@@ -272,6 +277,7 @@ export class Scene {
     if (path.length > LONGEST_PATH) return this.#refuse(path, 'nested too deep');
     if (typeof value === 'number') return this.#setNumber(path, value);
     if (typeof value === 'string') return this.#setString(path, value);
+    if (typeof value === 'boolean') return this.#setBoolean(path, value);
     if (Array.isArray(value)) return this.#setList(path, value);
     if (typeof value !== 'object' || value === null) return this.#refuse(path, String(value));
     const entries = Object.entries(value);
@@ -288,6 +294,11 @@ export class Scene {
     this.#throwIf(memory.withText(path, (at) => c.weir_scene_set_number(this.pointer, at, value)));
   }
 
+  #setBoolean(path: string, value: boolean): void {
+    const { memory, c } = this.#context;
+    this.#throwIf(memory.withText(path, (at) => c.weir_scene_set_boolean(this.pointer, at, value ? 1 : 0)));
+  }
+
   #setString(path: string, value: string): void {
     const { memory, c } = this.#context;
     if (value.includes('\0')) return this.#refuse(path, 'a text with a null character');
@@ -300,7 +311,6 @@ export class Scene {
     const { memory, c } = this.#context;
     const isNumber = (item: unknown) => typeof item === 'number';
     if (list.every(isNumber)) {
-      if (list.length > 16) return this.#refuse(path, 'a long list');
       const set = (at: number) =>
         memory.withDoubles(list as number[], (values) =>
           c.weir_scene_set_numbers(this.pointer, at, values, list.length));

@@ -22,7 +22,7 @@ type Name =
   | 'weir_gpu_backend' | 'weir_gpu_destroy' | 'weir_gpu_device' | 'weir_gpu_error' | 'weir_gpu_is_software'
   | 'weir_gpu_poll' | 'weir_gpu_wgpu_device' | 'weir_scene_check' | 'weir_scene_copy' | 'weir_scene_create'
   | 'weir_scene_destroy' | 'weir_scene_dimension' | 'weir_scene_error' | 'weir_scene_get_parameter'
-  | 'weir_scene_method' | 'weir_scene_particle_count' | 'weir_scene_refuse' | 'weir_scene_set_number'
+  | 'weir_scene_method' | 'weir_scene_particle_count' | 'weir_scene_refuse' | 'weir_scene_set_boolean' | 'weir_scene_set_number'
   | 'weir_scene_set_numbers' | 'weir_scene_set_string' | 'weir_scene_stable_time_step' | 'weir_scene_title'
   | 'weir_scene_warning' | 'weir_sim_backend' | 'weir_sim_destroy' | 'weir_sim_device' | 'weir_sim_error'
   | 'weir_sim_particle_count' | 'weir_sim_poll' | 'weir_sim_read' | 'weir_sim_reset' | 'weir_sim_scene'

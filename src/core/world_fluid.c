@@ -1,0 +1,166 @@
+// A scene's fluid on its lattice, and its state at the start.
+#include "core/exact_math.h"
+#include "core/scene_shape.h"
+#include "core/world_build.h"
+
+#include <math.h>
+#include <string.h>
+
+// Sites of one piece's bounding box. Box: in the middle of squares (cubes) of one spacing. Ball: the same around
+// its centre.
+typedef struct Lattice {
+    double origin[3]; // first site
+    uint64_t sites[3];
+} Lattice;
+
+static Lattice fluid_lattice(const WeirFluid *fluid, uint32_t dimension, double spacing)
+{
+    Lattice lattice = {.sites = {1, 1, 1}};
+    double low[3], high[3];
+    weir_shape_bounds(&fluid->shape, dimension, low, high);
+    for (uint32_t axis = 0; axis < dimension; ++axis) {
+        bool is_ball = fluid->shape.kind == WEIR_SHAPE_BALL;
+        double size = is_ball ? 2.0 * fluid->shape.radius : high[axis] - low[axis];
+        double sites = floor(size / spacing + 0.5);
+        lattice.sites[axis] = sites >= 1.0 ? (uint64_t)fmin(sites, 1e9) : 0;
+        // A ball's lattice is centred; a box's starts half a spacing from its lowest corner.
+        double margin = is_ball ? 0.5 * (size - (sites - 1.0) * spacing) : 0.5 * spacing;
+        lattice.origin[axis] = low[axis] + margin;
+    }
+    return lattice;
+}
+
+double weir_fluid_sites(const WeirScene *scene)
+{
+    double spacing = scene->parameters.particle_spacing, total = 0.0;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        Lattice lattice = fluid_lattice(&scene->fluid[n], scene->dimension, spacing);
+        double share = scene->fluid[n].shape.kind != WEIR_SHAPE_BALL ? 1.0 : scene->dimension == 3 ? 0.52 : 0.78;
+        total += share * (double)lattice.sites[0] * (double)lattice.sites[1] * (double)lattice.sites[2];
+    }
+    return total;
+}
+
+static void fill_piece(WeirBuild *build, const WeirFluid *fluid)
+{
+    Lattice lattice = fluid_lattice(fluid, build->dimension, build->spacing);
+    uint64_t k[3];
+    for (k[2] = 0; k[2] < lattice.sites[2]; ++k[2]) {
+        for (k[1] = 0; k[1] < lattice.sites[1]; ++k[1]) {
+            for (k[0] = 0; k[0] < lattice.sites[0]; ++k[0]) {
+                double point[3];
+                for (uint32_t axis = 0; axis < build->dimension; ++axis)
+                    point[axis] = lattice.origin[axis] + (double)k[axis] * build->spacing;
+                // Rounding must not cost a box its outermost sites.
+                if (fluid->shape.kind == WEIR_SHAPE_BOX ||
+                    weir_shape_contains(&fluid->shape, build->dimension, point))
+                    weir_points_add(&build->fluid, point);
+            }
+        }
+    }
+}
+
+// Does a particle of one piece lie on a site of the piece `other`? Lattices may be shifted against each other,
+// so half a spacing of distance to the other piece's outermost sites is asked for.
+static bool overlaps(const WeirFluid *other, uint32_t dimension, double spacing, const double *position)
+{
+    WeirShape shape = other->shape;
+    bool is_ball = shape.kind == WEIR_SHAPE_BALL;
+    double gap = (is_ball ? 0.49 : 0.02) * spacing;
+    double distance2 = 0.0, r = shape.radius - gap;
+    for (uint32_t axis = 0; axis < dimension; ++axis) {
+        double x = position[axis], d = x - shape.center[axis];
+        distance2 += d * d;
+        if (!is_ball && !(x > shape.min[axis] + gap && x < shape.max[axis] - gap)) return false;
+    }
+    return !is_ball || (r > 0.0 && distance2 < r * r);
+}
+
+static WeirStatus check_overlap(WeirBuild *build)
+{
+    WeirScene *scene = build->scene;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        for (uint32_t other = 0; other < scene->fluid_count; ++other) {
+            if (other == n) continue;
+            for (uint64_t i = build->first[n]; i < build->first[n + 1]; ++i) {
+                const double *point = &build->fluid.data[i * build->dimension];
+                if (!overlaps(&scene->fluid[other], build->dimension, build->spacing, point)) continue;
+                return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                                 "fluid[%u] overlaps fluid[%u] near (%g, %g); move one of them", n, other,
+                                 point[0], point[1]);
+            }
+        }
+    }
+    return WEIR_OK;
+}
+
+WeirStatus weir_build_fluid(WeirBuild *build)
+{
+    WeirScene *scene = build->scene;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        fill_piece(build, &scene->fluid[n]);
+        build->first[n + 1] = build->fluid.count;
+        if (build->fluid.failed || build->first[n + 1] > build->first[n]) continue;
+        return weir_fail(
+            &scene->error, WEIR_ERROR_INPUT,
+            "fluid[%u]: holds no particle; it must be larger than parameters.particle_spacing = %g m", n,
+            build->spacing);
+    }
+    return build->fluid.failed ? WEIR_OK : check_overlap(build);
+}
+
+// ---- State at the start ----
+
+// Height of a point against gravity, times |g|; along periodic axes gravity drives a flow and presses nothing.
+static double head(const WeirScene *scene, const double *point)
+{
+    double sum = 0.0;
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        if (!scene->periodic[axis]) sum -= (double)scene->parameters.gravity[axis] * point[axis];
+    }
+    return sum;
+}
+
+// The head of a piece's highest point.
+static double top_head(const WeirScene *scene, const WeirFluid *fluid)
+{
+    double low[3], high[3], top[3], g2 = 0.0;
+    weir_shape_bounds(&fluid->shape, scene->dimension, low, high);
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        double g = scene->periodic[axis] ? 0.0 : scene->parameters.gravity[axis];
+        top[axis] = g < 0.0 ? high[axis] : low[axis];
+        g2 += g * g;
+    }
+    if (fluid->shape.kind == WEIR_SHAPE_BALL)
+        return head(scene, fluid->shape.center) + sqrt(g2) * fluid->shape.radius;
+    return head(scene, top);
+}
+
+// Density under a pressure, by the equation of state without background pressure.
+static double density_under(const WeirParameters *parameters, double pressure)
+{
+    double rest = parameters->rest_density, c = parameters->sound_speed;
+    double x = pressure / (rest * c * c);
+    if (parameters->equation_of_state == WEIR_EQUATION_LINEAR) return rest * (1.0 + x);
+    return rest * weir_seventh_root(1.0 + 7.0 * x);
+}
+
+static void start_piece(WeirBuild *build, const WeirFluid *fluid, uint64_t first, uint64_t end)
+{
+    WeirParticles *particles = &build->world->particles;
+    double top = top_head(build->scene, fluid), rest = build->parameters.rest_density;
+    for (uint64_t i = first; i < end; ++i) {
+        const double *point = &particles->position[i * build->dimension];
+        for (uint32_t axis = 0; axis < build->dimension; ++axis)
+            particles->velocity[i * build->dimension + axis] = (float)fluid->velocity[axis];
+        if (!particles->density) continue;
+        double pressure = fluid->hydrostatic ? rest * fmax(top - head(build->scene, point), 0.0) : 0.0;
+        particles->density[i] = (float)density_under(&build->parameters, pressure);
+    }
+}
+
+void weir_build_start(WeirBuild *build)
+{
+    for (uint32_t n = 0; n < build->scene->fluid_count; ++n)
+        start_piece(build, &build->scene->fluid[n], build->first[n], build->first[n + 1]);
+}
