@@ -12,7 +12,7 @@ WEIR_VECTOR(gravity, "m/s^2", 0.0, -9.81, 0.0, -1000.0, 1000.0, "", 1, "Accelera
 WEIR_NUMBER(particle_spacing, "m", 0.01, 1e-5, 10.0, "", 0,
             "Distance between neighbouring particles of the resting lattice; sets the particle mass.")
 WEIR_NUMBER(support_radius, "m", 0.025, 0.0, 100.0, "", 0,
-            "Radius beyond which two particles do not act on each other. 0 (wcsph only): 3 spacings.")
+            "Radius beyond which two particles do not act on each other. 0 (wcsph only): 4 spacings in 2D, 3 in 3D.")
 WEIR_NUMBER(rest_density, "kg/m^3", 1000.0, 1e-3, 1e5, "", 0, "Density rho0 of the fluid at zero pressure.")
 WEIR_NUMBER(gas_constant, "m^2/s^2", 2000.0, 0.0, 1e7, "mueller", 1,
             "Stiffness k in p = k (rho - rho0); its square root is the speed of sound.")
@@ -29,8 +29,8 @@ WEIR_NUMBER(artificial_viscosity, "1", 0.02, 0.0, 10.0, "wcsph", 1,
             "Strength alpha of Monaghan's artificial viscosity between fluid particles.")
 WEIR_NUMBER(density_diffusion, "1", 0.1, 0.0, 1.0, "wcsph", 1,
             "Strength delta of the density diffusion of Fourtakas et al. 2019.")
-WEIR_NUMBER(shifting, "1", 1.0, 0.0, 10.0, "wcsph", 1,
-            "Strength of the particle shifting inside the fluid (Sun et al. 2017); 0: none.")
+WEIR_NUMBER(shifting, "1", 4.0, 0.0, 20.0, "wcsph", 1,
+            "Strength of the particle shifting inside the fluid, 1 as in Sun et al. 2017; 0: none.")
 WEIR_NUMBER(background_pressure, "Pa", 0.0, 0.0, 1e9, "wcsph", 1,
             "Added to every pressure; keeps a closed or periodic fluid without free surface from tension.")
 WEIR_NUMBER(central_force, "1/s^2", 0.0, 0.0, 1e6, "wcsph", 1,

@@ -55,7 +55,8 @@ WeirParameters weir_scene_resolved(const WeirScene *scene)
 {
     WeirParameters resolved = scene->parameters;
     if (scene->method != WEIR_METHOD_WCSPH) return resolved;
-    if (resolved.support_radius == 0.0f) resolved.support_radius = 3.0f * resolved.particle_spacing;
+    if (resolved.support_radius == 0.0f)
+        resolved.support_radius = (scene->dimension == 2 ? 4.0f : 3.0f) * resolved.particle_spacing;
     double speed =
         resolved.expected_speed > 0.0f ? resolved.expected_speed : weir_scene_expected_speed(scene);
     if (resolved.sound_speed == 0.0f) resolved.sound_speed = (float)(10.0 * speed);

@@ -120,8 +120,8 @@ static WeirStatus check_method(WeirScene *scene)
         if (scene->fluid[n].shape.kind > WEIR_SHAPE_BALL) found = "fluid: polygon";
     }
     if (!found) return WEIR_OK;
-    return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s: only method wcsph knows it; this scene's is mueller",
-                     found);
+    return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                     "%s: only method wcsph knows it; this scene's is mueller", found);
 }
 
 // Keys whose particles are not made yet.

@@ -14,17 +14,18 @@
 #define SHAPE(Type, key, Object) .offset = offsetof(Type, shape), .object = Object, .shape = key
 
 // The five shapes of a piece.
-#define SHAPE_KEYS(Owner, Type)                                                                              \
-    {Owner, "box", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_BOX, WEIR_OWNER_BOX),                             \
-     .help = "A box along the axes."},                                                                       \
-        {Owner, "ball", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_BALL, WEIR_OWNER_BALL),                      \
-         .help = "A ball; a disc in 2D."},                                                                   \
-        {Owner, "cylinder", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_CYLINDER, WEIR_OWNER_CYLINDER),          \
-         .help = "A round cylinder with flat ends; 3D only."},                                               \
-        {Owner, "polygon", WEIR_KEY_POINTS, SHAPE(Type, WEIR_SHAPE_POLYGON, 0), COORDINATES,                 \
-         .help = "Corners [x, y] in order, either way round, closed by itself; 2D only. m."},                \
-    {Owner, "mesh", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_MESH, WEIR_OWNER_MESH),                          \
-     .help = "A closed triangle mesh; 3D only."}
+#define SHAPE_KEYS(Owner, Type)                                                                                \
+    {Owner, "box", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_BOX, WEIR_OWNER_BOX),                               \
+     .help = "A box along the axes."},                                                                         \
+        {Owner, "ball", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_BALL, WEIR_OWNER_BALL),                        \
+         .help = "A ball; a disc in 2D."},                                                                     \
+        {Owner, "cylinder", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_CYLINDER, WEIR_OWNER_CYLINDER),            \
+         .help = "A round cylinder with flat ends; 3D only."},                                                 \
+        {Owner,           "polygon",                                                                           \
+         WEIR_KEY_POINTS, SHAPE(Type, WEIR_SHAPE_POLYGON, 0),                                                  \
+         COORDINATES,     .help = "Corners [x, y] in order, either way round, closed by itself; 2D only. m."}, \
+        {Owner, "mesh", WEIR_KEY_OBJECT, SHAPE(Type, WEIR_SHAPE_MESH, WEIR_OWNER_MESH),                        \
+         .help = "A closed triangle mesh; 3D only."}
 
 // What walls and bodies share.
 #define SOLID_KEYS(Owner)                                                                                    \
@@ -32,9 +33,13 @@
         SHAPE_KEYS(Owner, WeirSolidPiece),                                                                   \
         {Owner, "no_slip", WEIR_KEY_BOOLEAN, AT(WeirSolidPiece, no_slip),                                    \
          .help = "true: the fluid sticks to it; false: it slides. true if not given."},                      \
-    {Owner, "motion", WEIR_KEY_OBJECT, AT(WeirSolidPiece, motion),                                           \
-     HAS(WeirSolidPiece, is_driven), .object = WEIR_OWNER_MOTION,                                            \
-     .help = "Moves it as prescribed: constant velocities, an oscillation or a table."}
+        {Owner,                                                                                              \
+         "motion",                                                                                           \
+         WEIR_KEY_OBJECT,                                                                                    \
+         AT(WeirSolidPiece, motion),                                                                         \
+         HAS(WeirSolidPiece, is_driven),                                                                     \
+         .object = WEIR_OWNER_MOTION,                                                                        \
+         .help = "Moves it as prescribed: constant velocities, an oscillation or a table."}
 
 const WeirSceneKey weir_scene_keys[] = {
     {WEIR_OWNER_DOMAIN, "min", WEIR_KEY_VECTOR, AT(WeirScene, domain_min), COORDINATES,
@@ -91,8 +96,8 @@ const WeirSceneKey weir_scene_keys[] = {
      .help = "When it opens, s; at once if not given."},
     {WEIR_OWNER_EMITTER, "stop", WEIR_KEY_NUMBER, AT(WeirEmitterPiece, stop), TIME, .above = true,
      .help = "When it closes, s; never if not given."},
-    {WEIR_OWNER_EMITTER, "capacity", WEIR_KEY_WHOLE, AT(WeirEmitterPiece, capacity), .low = 1.0,
-     .high = 1e8, .help = "Slots kept free for its particles; chosen from the domain if not given."},
+    {WEIR_OWNER_EMITTER, "capacity", WEIR_KEY_WHOLE, AT(WeirEmitterPiece, capacity), .low = 1.0, .high = 1e8,
+     .help = "Slots kept free for its particles; chosen from the domain if not given."},
 
     {WEIR_OWNER_DRAIN, "min", WEIR_KEY_VECTOR, AT(WeirDrainPiece, min), HAS(WeirDrainPiece, has_min),
      COORDINATES, .help = "Lowest corner, m."},
@@ -165,7 +170,7 @@ const size_t weir_scene_key_count = sizeof weir_scene_keys / sizeof weir_scene_k
 
 #define LIST(array, count)                                                                                   \
     .offset = offsetof(WeirScene, array), .count_offset = offsetof(WeirScene, count),                        \
-    .size = sizeof ((WeirScene *)0)->array[0]
+    .size = sizeof((WeirScene *)0)->array[0]
 
 const WeirSceneList weir_scene_lists[WEIR_SCENE_LISTS] = {
     {"fluid", WEIR_OWNER_FLUID, LIST(fluid, fluid_count), .most = WEIR_MAX_FLUIDS, .item = "pieces of fluid",

@@ -250,7 +250,7 @@ static WeirStatus set_method(WeirScene *scene, const char *path, const WeirValue
                          "method: mueller knows dimension 2; this scene's is %u", scene->dimension);
     }
     scene->method = method == 1 ? WEIR_METHOD_WCSPH : WEIR_METHOD_MUELLER;
-    // The default is a length for mueller and 0, which means 3 spacings, for wcsph.
+    // The default is a length for mueller and 0, which means 4 or 3 spacings, for wcsph.
     int support = weir_parameter_find("support_radius");
     if (!(scene->parameters_given >> support & 1)) {
         const WeirParameterInfo *info = weir_parameter_info((uint32_t)support);

@@ -25,7 +25,8 @@ bool weir_shape_contains(const WeirShape *shape, uint32_t dimension, const doubl
 {
     double distance2 = 0.0;
     for (uint32_t axis = 0; axis < dimension; ++axis) {
-        if (shape->kind == WEIR_SHAPE_BOX && !(point[axis] >= shape->min[axis] && point[axis] <= shape->max[axis]))
+        if (shape->kind == WEIR_SHAPE_BOX &&
+            !(point[axis] >= shape->min[axis] && point[axis] <= shape->max[axis]))
             return false;
         double d = point[axis] - shape->center[axis];
         distance2 += d * d;

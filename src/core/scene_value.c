@@ -64,8 +64,7 @@ static WeirStatus check_list(WeirScene *scene, const WeirSceneKey *key, const ch
                              const WeirValue *value, size_t count)
 {
     if (value->kind != WEIR_VALUE_LIST || value->count != count) {
-        static const char *const wanted[] = {"a list of 2 numbers, [x, y]",
-                                             "a list of 3 numbers, [x, y, z]"};
+        static const char *const wanted[] = {"a list of 2 numbers, [x, y]", "a list of 3 numbers, [x, y, z]"};
         return weir_wrong_type(scene, path, value, wanted[count == 3]);
     }
     for (size_t k = 0; k < count; ++k) {
@@ -203,17 +202,22 @@ static ItemList list_of(const WeirScene *scene, void *owner, const WeirSceneKey 
     WeirMotion *motion = (WeirMotion *)((char *)owner + key->offset);
     switch (key->kind) {
     case WEIR_KEY_POINTS:
-        return (ItemList){&shape->points,    &shape->point_count, &shape->point_capacity,
-                          2 * sizeof(double), 2,                   "corners"};
+        return (ItemList){&shape->points, &shape->point_count, &shape->point_capacity, 2 * sizeof(double), 2,
+                          "corners"};
     case WEIR_KEY_VERTICES:
-        return (ItemList){&mesh->vertices,   &mesh->vertex_count, &mesh->vertex_capacity,
-                          3 * sizeof(double), 3,                   "vertices"};
+        return (ItemList){&mesh->vertices, &mesh->vertex_count, &mesh->vertex_capacity, 3 * sizeof(double), 3,
+                          "vertices"};
     case WEIR_KEY_TRIANGLES:
-        return (ItemList){&mesh->triangles,    &mesh->triangle_count, &mesh->triangle_capacity,
-                          3 * sizeof(uint32_t), 3,                     "triangles"};
+        return (ItemList){
+            &mesh->triangles, &mesh->triangle_count, &mesh->triangle_capacity, 3 * sizeof(uint32_t), 3,
+            "triangles"};
     default:
-        return (ItemList){&motion->rows,         &motion->row_count,           &motion->row_capacity,
-                          sizeof(WeirMotionRow), scene->dimension == 3 ? 7 : 4, "rows"};
+        return (ItemList){&motion->rows,
+                          &motion->row_count,
+                          &motion->row_capacity,
+                          sizeof(WeirMotionRow),
+                          scene->dimension == 3 ? 7 : 4,
+                          "rows"};
     }
 }
 
@@ -225,8 +229,8 @@ static WeirStatus check_item(WeirScene *scene, const WeirSceneKey *key, const ch
         WeirStatus status = check_range(scene, path, key->kind == WEIR_KEY_ROWS ? &row : key, numbers[k]);
         if (status) return status;
         if (key->kind == WEIR_KEY_TRIANGLES && floor(numbers[k]) != numbers[k]) {
-            return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                             "%.80s: %g is no index; must be a whole number", path, numbers[k]);
+            return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%.80s: %g is no index; must be a whole number",
+                             path, numbers[k]);
         }
     }
     return WEIR_OK;
@@ -250,10 +254,10 @@ static void store_item(const WeirSceneKey *key, void *item, const double *number
 
 static WeirStatus wrong_item(WeirScene *scene, const char *path, const WeirValue *value, const ItemList *list)
 {
-    static const char *const wanted[] = {
-        [2] = "a list of 2 numbers, [x, y]", [3] = "a list of 3 numbers",
-        [4] = "a list of 4 numbers, [t, dx, dy, angle]",
-        [7] = "a list of 7 numbers, [t, dx, dy, dz, rx, ry, rz]"};
+    static const char *const wanted[] = {[2] = "a list of 2 numbers, [x, y]",
+                                         [3] = "a list of 3 numbers",
+                                         [4] = "a list of 4 numbers, [t, dx, dy, angle]",
+                                         [7] = "a list of 7 numbers, [t, dx, dy, dz, rx, ry, rz]"};
     return weir_wrong_type(scene, path, value, wanted[list->numbers]);
 }
 

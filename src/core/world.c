@@ -43,10 +43,9 @@ static WeirStatus check_count(const WeirBuild *build)
     if (scene->method == WEIR_METHOD_WCSPH) sides = weir_sides_count(scene, build->spacing, build->layers);
     if (fluid + sides <= WEIR_MAX_PARTICLES) return WEIR_OK;
     bool walls = sides > fluid;
-    return weir_fail(
-        &scene->error, WEIR_ERROR_INPUT,
-        "%s: about %.3g particles; allowed are %d. Raise parameters.particle_spacing (now %g m)",
-        walls ? "domain" : "fluid", walls ? sides : fluid, WEIR_MAX_PARTICLES, build->spacing);
+    return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                     "%s: about %.3g particles; allowed are %d. Raise parameters.particle_spacing (now %g m)",
+                     walls ? "domain" : "fluid", walls ? sides : fluid, WEIR_MAX_PARTICLES, build->spacing);
 }
 
 static WeirStatus make_points(WeirBuild *build)
@@ -87,8 +86,7 @@ static WeirStatus join(WeirBuild *build)
     for (uint32_t s = 0; s < world->solid_count; ++s) {
         WeirSolid *solid = &world->solids[s];
         solid->first += (uint32_t)fluid;
-        for (uint32_t i = 0; i < solid->count; ++i)
-            particles->group[solid->first + i] = WEIR_GROUP_SOLID + s;
+        for (uint32_t i = 0; i < solid->count; ++i) particles->group[solid->first + i] = WEIR_GROUP_SOLID + s;
     }
     weir_build_start(build);
     return WEIR_OK;

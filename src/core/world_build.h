@@ -20,10 +20,10 @@ typedef struct WeirBuild {
     WeirParameters parameters; // resolved
     uint32_t dimension;
     double spacing;
-    uint32_t layers;                    // of wall particles that the support needs
-    WeirPoints fluid;                   // by piece
+    uint32_t layers;                     // of wall particles that the support needs
+    WeirPoints fluid;                    // by piece
     uint64_t first[WEIR_MAX_FLUIDS + 1]; // of a piece's points; the last: their number
-    WeirPoints solid;                   // of all solids, one after the other
+    WeirPoints solid;                    // of all solids, one after the other
     WeirWorld *world;
 } WeirBuild;
 

@@ -35,7 +35,9 @@ double weir_fluid_sites(const WeirScene *scene)
     double spacing = scene->parameters.particle_spacing, total = 0.0;
     for (uint32_t n = 0; n < scene->fluid_count; ++n) {
         Lattice lattice = fluid_lattice(&scene->fluid[n], scene->dimension, spacing);
-        double share = scene->fluid[n].shape.kind != WEIR_SHAPE_BALL ? 1.0 : scene->dimension == 3 ? 0.52 : 0.78;
+        double share = scene->fluid[n].shape.kind != WEIR_SHAPE_BALL ? 1.0
+                       : scene->dimension == 3                       ? 0.52
+                                                                     : 0.78;
         total += share * (double)lattice.sites[0] * (double)lattice.sites[1] * (double)lattice.sites[2];
     }
     return total;

@@ -10,8 +10,8 @@ enum { BOTH = 2 };
 
 static void set_vector(WeirScene *scene, const char *path, double x, double y, double z)
 {
-    CHECK_SCENE(scene,
-                weir_scene_set_numbers(scene, path, (double[]){x, y, z}, weir_scene_dimension(scene)), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, (double[]){x, y, z}, weir_scene_dimension(scene)),
+                WEIR_OK);
 }
 
 // A tank of 1 m per axis at 0.1 m spacing, half full.
@@ -21,6 +21,7 @@ static WeirScene *tank(uint32_t dimension)
     CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
     weir_test_set(scene, "particle_spacing", 0.1);
+    weir_test_set(scene, "support_radius", 0.3);
     set_vector(scene, "domain.min", 0, 0, 0);
     set_vector(scene, "domain.max", 1, 1, 1);
     set_vector(scene, "fluid[0].box.min", 0, 0, 0);
@@ -149,8 +150,10 @@ static void choices_are_made_for_the_scene(void **state)
 {
     (void)state;
     WeirScene *scene = tank(2);
+    CHECK_NEAR(weir_scene_resolved(scene).support_radius, 0.3, 1e-7);
+    weir_test_set(scene, "support_radius", 0);
     WeirParameters parameters = weir_scene_resolved(scene);
-    CHECK_NEAR(parameters.support_radius, 0.3, 1e-7);
+    CHECK_NEAR(parameters.support_radius, 0.4, 1e-7);
     CHECK_NEAR(parameters.sound_speed, 20 * sqrt(9.81 * 0.5), 1e-4);
     weir_test_set(scene, "expected_speed", 3);
     CHECK_NEAR(weir_scene_resolved(scene).sound_speed, 30, 1e-5);

@@ -32,7 +32,8 @@ typedef struct Depth {
 static WGPURenderPipeline make_pipeline(const Depth *depth, WGPUPipelineLayout layout, const char *fragment,
                                         const WGPUDepthStencilState *state)
 {
-    WGPUColorTargetState target = {.format = WGPUTextureFormat_RGBA8Unorm, .writeMask = WGPUColorWriteMask_All};
+    WGPUColorTargetState target = {.format = WGPUTextureFormat_RGBA8Unorm,
+                                   .writeMask = WGPUColorWriteMask_All};
     WGPUFragmentState stage = {.module = depth->shader,
                                .entryPoint = weir_test_text(fragment),
                                .targetCount = 1,
@@ -51,16 +52,16 @@ static WGPURenderPipeline make_pipeline(const Depth *depth, WGPUPipelineLayout l
 static void make_pipelines(Depth *depth)
 {
     WGPUShaderSourceWGSL source = {{NULL, WGPUSType_ShaderSourceWGSL}, weir_test_text(scene_code)};
-    depth->shader = wgpuDeviceCreateShaderModule(
-        world.device, &(WGPUShaderModuleDescriptor){.nextInChain = &source.chain});
+    depth->shader = wgpuDeviceCreateShaderModule(world.device,
+                                                 &(WGPUShaderModuleDescriptor){.nextInChain = &source.chain});
     WGPUBindGroupLayoutEntry entry = {
         .binding = 3,
         .visibility = WGPUShaderStage_Fragment,
         .texture = {.sampleType = WGPUTextureSampleType_Depth, .viewDimension = WGPUTextureViewDimension_2D}};
     depth->layout = wgpuDeviceCreateBindGroupLayout(
         world.device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 1, .entries = &entry});
-    depth->empty_layout =
-        wgpuDeviceCreatePipelineLayout(world.device, &(WGPUPipelineLayoutDescriptor){.bindGroupLayoutCount = 0});
+    depth->empty_layout = wgpuDeviceCreatePipelineLayout(
+        world.device, &(WGPUPipelineLayoutDescriptor){.bindGroupLayoutCount = 0});
     depth->texture_layout = wgpuDeviceCreatePipelineLayout(
         world.device,
         &(WGPUPipelineLayoutDescriptor){.bindGroupLayoutCount = 1, .bindGroupLayouts = &depth->layout});
@@ -87,7 +88,8 @@ static void make_textures(Depth *depth)
     }
     WGPUBindGroupEntry entry = {.binding = 3, .textureView = depth->views[0]};
     depth->group = wgpuDeviceCreateBindGroup(
-        world.device, &(WGPUBindGroupDescriptor){.layout = depth->layout, .entryCount = 1, .entries = &entry});
+        world.device,
+        &(WGPUBindGroupDescriptor){.layout = depth->layout, .entryCount = 1, .entries = &entry});
     depth->pixels = weir_test_buffer(WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc, SIZE * ROW);
 }
 
@@ -116,7 +118,8 @@ static void draw(Depth *depth)
     }
     wgpuCommandEncoderCopyTextureToBuffer(
         encoder, &(WGPUTexelCopyTextureInfo){.texture = depth->textures[1], .aspect = WGPUTextureAspect_All},
-        &(WGPUTexelCopyBufferInfo){.layout = {.bytesPerRow = ROW, .rowsPerImage = SIZE}, .buffer = depth->pixels},
+        &(WGPUTexelCopyBufferInfo){.layout = {.bytesPerRow = ROW, .rowsPerImage = SIZE},
+                                   .buffer = depth->pixels},
         &(WGPUExtent3D){SIZE, SIZE, 1});
     weir_test_submit(encoder);
 }

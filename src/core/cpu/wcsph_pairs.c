@@ -279,7 +279,7 @@ static void finish_shift(const WeirWcsphData *data, const ForceSums *sums, uint3
 {
     const WeirConstants *constants = data->constants;
     float most = 0.25f * data->max_speed;
-    float factor = -data->parameters->shifting * 2.0f * constants->smoothing_length * data->max_speed *
+    float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->max_speed *
                    constants->particle_mass * constants->gradient_factor * constants->quantum;
     const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
     float u[3], u2 = 0.0f;
