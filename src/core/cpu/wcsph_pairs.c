@@ -288,7 +288,13 @@ static void finish_shift(const WeirWcsphData *data, const ForceSums *sums, uint3
         u2 += u[axis] * u[axis];
     }
     float length = sqrtf(u2), scale = length > most ? most / length : 1.0f;
-    for (int axis = 0; axis < 3; ++axis) data->shift[axis][i] = scale * u[axis];
+    float along = 0.0f; // u . grad C, C the concentration sum V W
+    for (int axis = 0; axis < 3; ++axis) {
+        data->shift[axis][i] = scale * u[axis];
+        along += scale * u[axis] * g[axis][lane];
+    }
+    float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
+    data->shift_rate[i] = 2.0f * gradient * along;
 }
 
 INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
@@ -359,7 +365,8 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
         uint32_t i = begin + lane;
         if (data->is_fluid[i] != 0.0f)
-            data->rate[i] = rho[lane] * compress * divergence[lane] + diffuse * diffusion[lane];
+            data->rate[i] =
+                rho[lane] * (compress * divergence[lane] + data->shift_rate[i]) + diffuse * diffusion[lane];
     }
 }
 
