@@ -29,7 +29,7 @@ WEIR_NUMBER(artificial_viscosity, "1", 0.02, 0.0, 10.0, "wcsph", 1,
             "Strength alpha of Monaghan's artificial viscosity between fluid particles.")
 WEIR_NUMBER(density_diffusion, "1", 0.1, 0.0, 1.0, "wcsph", 1,
             "Strength delta of the density diffusion of Fourtakas et al. 2019.")
-WEIR_NUMBER(shifting, "1", 4.0, 0.0, 20.0, "wcsph", 1,
+WEIR_NUMBER(shifting, "1", 2.0, 0.0, 20.0, "wcsph", 1,
             "Strength of the particle shifting inside the fluid, 1 as in Sun et al. 2017; 0: none.")
 WEIR_NUMBER(background_pressure, "Pa", 0.0, 0.0, 1e9, "wcsph", 1,
             "Added to every pressure; keeps a closed or periodic fluid without free surface from tension.")
@@ -48,9 +48,9 @@ WEIR_CHOICE(kernel, "wendland|cubic|quintic", 0, "wcsph", 0,
             "Smoothing kernel: Wendland C2 (support 2h), cubic spline (2h) or quintic spline (3h).")
 WEIR_CHOICE(equation_of_state, "linear|tait", 0, "wcsph", 0,
             "linear: p = c0^2 (rho - rho0); tait: p = rho0 c0^2 / 7 ((rho / rho0)^7 - 1).")
-WEIR_CHOICE(tension_control, "off|on", 1, "wcsph", 1,
-            "on: inside the fluid a negative pressure acts by its difference, so that tension opens no voids "
-            "(Sun et al. 2018).")
+WEIR_CHOICE(tension_control, "off|on", 0, "wcsph", 1,
+            "on: inside the fluid a negative pressure acts by its difference, so that tension opens no voids, "
+            "at the price of exact momentum (Sun et al. 2018).")
 WEIR_CHOICE(stepping, "adaptive|fixed", 0, "wcsph", 1,
             "adaptive: each step as long as force, sound and viscosity allow; fixed: time_step.")
 

@@ -32,11 +32,11 @@ static bool make_particles(WeirWcsphParticles *particles, size_t size)
 // One block for the arrays of `data` that do not belong to the sorted particles.
 static bool make_sums(WeirWcsph *solver, size_t size)
 {
-    enum { ARRAYS = 21 };
+    enum { ARRAYS = 22 };
     float *next = solver->sums = calloc(ARRAYS * size, sizeof *next);
     if (!next) return false;
     WeirWcsphData *data = &solver->data;
-    float **single[] = {&data->inverse_density, &data->pressure, &data->weight};
+    float **single[] = {&data->inverse_density, &data->pressure, &data->weight, &data->shift_rate};
     float **vector[] = {data->seen_velocity, data->new_velocity, data->acceleration, data->shift,
                         data->extrapolated};
     for (size_t n = 0; n < sizeof single / sizeof *single; ++n, next += size) *single[n] = next;
