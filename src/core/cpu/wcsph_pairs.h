@@ -23,8 +23,8 @@ typedef struct WeirWcsphData {
     float *new_velocity[3];   // as `continuity` sees it
     float *acceleration[3];   // m/s^2; of solids: force of the fluid on the particle over the particle mass
     float *shift[3];          // shifting velocity, m/s
-    float *shift_rate;          // what shifting does to the density: drho/dt / rho, 1/s
-    float *rate;                // drho/dt, kg/(m^3 s)
+    float *shift_rate;        // what shifting does to the density: drho/dt / rho, 1/s
+    float *rate;              // drho/dt, kg/(m^3 s)
     float *weight;            // walls: sum of W, 0 without fluid in reach
     float *extrapolated[3];   // walls: sum_j rho_j x_wj W / sum W, kg/m^2
 } WeirWcsphData;
