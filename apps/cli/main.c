@@ -7,8 +7,8 @@
 
 #include "weir/weir.h"
 
-static const WeirCommand *const commands[] = {&weir_run_command, &weir_bench_command, &weir_info_command,
-                                              &weir_params_command};
+static const WeirCommand *const commands[] = {&weir_run_command, &weir_validate_command, &weir_bench_command,
+                                              &weir_info_command, &weir_params_command};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 static void print_help(FILE *file)

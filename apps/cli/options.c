@@ -168,8 +168,14 @@ static bool parse_option(const WeirCommand *command, int argument_count, char **
     return store_value(command, option, value, values);
 }
 
-static bool take_positional(const WeirCommand *command, const char *text, const char **positional)
+static bool take_positional(const WeirCommand *command, const char *text, void *values,
+                            const char **positional)
 {
+    WeirTextList *list = command->takes_list ? (void *)((char *)values + command->list_offset) : NULL;
+    if (list && list->count < sizeof list->items / sizeof list->items[0]) {
+        list->items[list->count++] = text;
+        return true;
+    }
     if (command->positional && !*positional) {
         *positional = text;
         return true;
@@ -197,7 +203,7 @@ bool weir_options_parse(const WeirCommand *command, int argument_count, char **a
         } else if (!only_positional && text[0] == '-' && text[1] != '\0') {
             if (!parse_option(command, argument_count, arguments, &next, values)) return false;
         } else {
-            if (!take_positional(command, text, positional)) return false;
+            if (!take_positional(command, text, values, positional)) return false;
             ++next;
         }
     }

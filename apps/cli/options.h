@@ -44,6 +44,8 @@ typedef struct WeirCommand {
     const char *summary;    // one line
     const char *notes;      // printed after the options, "" if there is none
     const char *positional; // name of the one argument that is no option; NULL if there is none
+    bool takes_list;        // instead, any number of arguments that are no options...
+    size_t list_offset;     // ...go into this WeirTextList of the command's own struct
     const WeirOption *options;
     size_t option_count;
     int (*run)(int argument_count, char **arguments);

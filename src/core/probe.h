@@ -14,3 +14,5 @@ uint32_t weir_probe_components(const WeirProbePiece *probe, uint32_t dimension);
 // plus half a spacing. `solid`: index into state->solids of a force probe's target.
 void weir_probe_measure(const WeirProbePiece *probe, uint32_t solid, const WeirState *state,
                         const WeirParameters *parameters, const WeirConstants *constants, double values[3]);
+// Index of the wall or body `name` ("domain": the domain's own walls) among a world's solids; false if there is none.
+bool weir_probe_target(const WeirScene *scene, const char *name, uint32_t *solid);

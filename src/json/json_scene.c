@@ -155,15 +155,11 @@ static char *read_file(const char *path, size_t *size, char *message, size_t mes
     return NULL;
 }
 
-static json_t *parse_file(const char *path, char *message, size_t message_size)
+static json_t *parse_text(const char *text, size_t size, const char *path, char *message, size_t message_size)
 {
-    size_t size;
-    char *text = read_file(path, &size, message, message_size);
-    if (!text) return NULL;
     json_error_t error;
     // Whole numbers too large for an integer are numbers all the same; the core checks their range.
     json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &error);
-    free(text);
     if (!document) {
         snprintf(message, message_size, "%s:%d:%d: malformed JSON: %s", path, error.line, error.column,
                  error.text);
@@ -173,8 +169,20 @@ static json_t *parse_file(const char *path, char *message, size_t message_size)
 
 WeirStatus weir_json_load_scene(const char *path, WeirScene **scene, char *message, size_t message_size)
 {
+    size_t size;
     *scene = NULL;
-    json_t *document = parse_file(path, message, message_size);
+    char *text = read_file(path, &size, message, message_size);
+    if (!text) return WEIR_ERROR_INPUT;
+    WeirStatus status = weir_json_parse_scene(text, size, path, scene, message, message_size);
+    free(text);
+    return status;
+}
+
+WeirStatus weir_json_parse_scene(const char *text, size_t size, const char *path, WeirScene **scene,
+                                 char *message, size_t message_size)
+{
+    *scene = NULL;
+    json_t *document = parse_text(text, size, path, message, message_size);
     if (!document) return WEIR_ERROR_INPUT;
     WeirScene *loaded = weir_scene_create();
     if (!loaded) {
