@@ -120,8 +120,8 @@ static void simulate(Validate *command, WeirValidation *v, uint32_t run, WeirVal
     clear_progress(command);
     if (sim) {
         WeirClock clock = weir_sim_clock(sim);
-        *result = (WeirValidateRun){weir_sim_particle_count(sim), clock.step, clock.time,
-                                    weir_wall_time() - start};
+        *result =
+            (WeirValidateRun){weir_sim_particle_count(sim), clock.step, clock.time, weir_wall_time() - start};
         snprintf(command->report.device, sizeof command->report.device, "%s", weir_sim_device(sim));
     }
     weir_sim_destroy(sim);
@@ -140,11 +140,13 @@ static bool validate_case(Validate *command, uint32_t index)
         uint32_t before = (uint32_t)strlen(weir_validation_error(v));
         simulate(command, v, run, &runs[run]);
         if (strlen(weir_validation_error(v)) != before && !command->options.quiet)
-            fprintf(stderr, "weir validate: %s: %s\n", weir_validation_case(v)->name, weir_validation_error(v));
+            fprintf(stderr, "weir validate: %s: %s\n", weir_validation_case(v)->name,
+                    weir_validation_error(v));
     }
     if (!weir_validation_judge(v)) command->failed = true;
     bool written = weir_validate_add_case(&command->report, v, runs, weir_wall_time() - start);
-    if (!command->options.json && !command->options.quiet) weir_validate_print_case(v, weir_wall_time() - start);
+    if (!command->options.json && !command->options.quiet)
+        weir_validate_print_case(v, weir_wall_time() - start);
     weir_validation_destroy(v);
     return written;
 }
@@ -152,7 +154,8 @@ static bool validate_case(Validate *command, uint32_t index)
 static bool open_backend(Validate *command)
 {
     char message[512];
-    if (!weir_cli_backend_open(&command->backend, command->options.backend, message, sizeof message)) return true;
+    if (!weir_cli_backend_open(&command->backend, command->options.backend, message, sizeof message))
+        return true;
     fprintf(stderr, "weir validate: --backend %s: %s\n", command->options.backend, message);
     return false;
 }
@@ -212,7 +215,8 @@ const WeirCommand weir_validate_command = {
     .name = "validate",
     .synopsis = "[CASE...] [options]",
     .summary = "simulates published cases and compares them with their references (all if none is named)",
-    .notes = "Exit status: 0 all gates passed, 1 a gate failed or a run broke off, 2 bad input, 130 ended by Ctrl-C.\n"
+    .notes = "Exit status: 0 all gates passed, 1 a gate failed or a run broke off, 2 bad input, 130 ended by "
+             "Ctrl-C.\n"
              "Cases, gates and parameters: docs/validation.md",
     .takes_list = true,
     .list_offset = FIELD(cases),

@@ -98,7 +98,8 @@ static bool write_curves(const char *folder, const WeirValidation *v)
 static bool all_passed(const WeirValidation *v)
 {
     bool all = weir_validation_gate_count(v) > 0;
-    for (uint32_t k = 0; k < weir_validation_gate_count(v); ++k) all = all && weir_validation_gate(v, k)->passed;
+    for (uint32_t k = 0; k < weir_validation_gate_count(v); ++k)
+        all = all && weir_validation_gate(v, k)->passed;
     return all;
 }
 
@@ -112,7 +113,8 @@ bool weir_validate_add_case(WeirValidateReport *report, const WeirValidation *v,
     json_object_set_new(object, "summary", json_string(info->summary));
     json_object_set_new(object, "source", json_string(info->source));
     json_object_set_new(object, "passed", json_boolean(all_passed(v)));
-    if (*weir_validation_error(v)) json_object_set_new(object, "error", json_string(weir_validation_error(v)));
+    if (*weir_validation_error(v))
+        json_object_set_new(object, "error", json_string(weir_validation_error(v)));
     json_object_set_new(object, "wall_time", weir_json_number(wall_time));
     json_object_set_new(object, "gates", gates_json(v));
     json_object_set_new(object, "runs", runs_json(v, runs));
@@ -145,8 +147,8 @@ void weir_validate_print_case(const WeirValidation *v, double wall_time)
     const WeirCaseInfo *info = weir_validation_case(v);
     char wall[32];
     weir_format_seconds(wall_time, wall);
-    printf("%s: %s (%s, %s)\n", info->name, info->title,
-           weir_resolution_name(weir_validation_resolution(v)), wall);
+    printf("%s: %s (%s, %s)\n", info->name, info->title, weir_resolution_name(weir_validation_resolution(v)),
+           wall);
     for (uint32_t k = 0; k < weir_validation_gate_count(v); ++k) {
         const WeirGate *gate = weir_validation_gate(v, k);
         char limit[48], reference[32] = "-";

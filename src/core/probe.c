@@ -130,8 +130,8 @@ static double line_weight(const Field *field, const Near *near, size_t count, do
     for (size_t k = 0; k < count; ++k) {
         double d = along - near[k].along, r2 = d * d + near[k].across2;
         if (r2 >= support2) continue;
-        sum += near[k].volume *
-               weir_smoothing_value(field->kernel, field->dimension, sqrt(r2), field->support);
+        sum +=
+            near[k].volume * weir_smoothing_value(field->kernel, field->dimension, sqrt(r2), field->support);
     }
     return sum;
 }

@@ -1,6 +1,7 @@
 // The sampler: a series per probe of the scene, each at its own rate.
 #include "core/probe.h"
 #include "core/sim.h"
+#include "core/world_build.h"
 #include "weir/weir_probe.h"
 
 #include <math.h>
@@ -25,9 +26,7 @@ struct WeirProbes {
 bool weir_probe_target(const WeirScene *scene, const char *name, uint32_t *solid)
 {
     uint32_t next = 0;
-    bool closed = false;
-    for (uint32_t axis = 0; axis < scene->dimension; ++axis)
-        closed = closed || (!scene->periodic[axis] && !(scene->open[axis][0] && scene->open[axis][1]));
+    bool closed = weir_has_sides(scene);
     *solid = 0;
     if (closed && strcmp(name, "domain") == 0) return true;
     next += closed;

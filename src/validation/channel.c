@@ -86,10 +86,11 @@ static void sample_poiseuille(WeirValidation *v, const WeirSample *sample)
 }
 
 const WeirCase weir_case_poiseuille = {
-    .info = {"poiseuille", "Poiseuille flow from rest, Re 0.0125",
-             "A body force drives fluid between two plates: velocity profiles at five times against the series "
-             "solution.",
-             "Morris, Fox, Zhu, J. Comput. Phys. 136 (1997)"},
+    .info =
+        {"poiseuille", "Poiseuille flow from rest, Re 0.0125",
+         "A body force drives fluid between two plates: velocity profiles at five times against the series "
+         "solution.",
+         "Morris, Fox, Zhu, J. Comput. Phys. 136 (1997)"},
     .data_size = sizeof(Channel),
     .plan = plan_poiseuille,
     .sample = sample_poiseuille,
@@ -108,7 +109,8 @@ static void sample_couette(WeirValidation *v, const WeirSample *sample)
 
 const WeirCase weir_case_couette = {
     .info = {"couette", "Couette flow from rest, Re 0.0125",
-             "The upper one of two plates moves along: velocity profiles at five times against the series solution.",
+             "The upper one of two plates moves along: velocity profiles at five times against the series "
+             "solution.",
              "Morris, Fox, Zhu, J. Comput. Phys. 136 (1997)"},
     .data_size = sizeof(Channel),
     .plan = plan_couette,

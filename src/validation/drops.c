@@ -78,10 +78,11 @@ static void judge_elliptical(WeirValidation *v)
 }
 
 const WeirCase weir_case_elliptical_drop = {
-    .info = {"elliptical_drop", "Elliptical drop",
-             "A disc of water in a strain flow of 100 1/s stretches to an ellipse: its major semi-axis at three "
-             "times, from the second moment of the particles' positions.",
-             "Monaghan, J. Comput. Phys. 110 (1994), equations integrated"},
+    .info =
+        {"elliptical_drop", "Elliptical drop",
+         "A disc of water in a strain flow of 100 1/s stretches to an ellipse: its major semi-axis at three "
+         "times, from the second moment of the particles' positions.",
+         "Monaghan, J. Comput. Phys. 110 (1994), equations integrated"},
     .data_size = sizeof(Ellipse),
     .plan = plan_elliptical,
     .sample = sample_elliptical,
@@ -143,17 +144,19 @@ static void judge_oscillating(WeirValidation *v)
     const Oscillation *oscillation = v->data;
     double period = weir_drop_period(omega, sigma, 1.0), largest = weir_drop_largest_axis(omega, sigma, 1.0);
     double peak = weir_curve_max(v, oscillation->horizontal, (PERIODS - 1) * period, PERIODS * period);
-    weir_gate_add(v, "period", "s", WEIR_GATE_RELATIVE, oscillation_period(v), period, weir_limit(v, 0.03, 0.01));
+    weir_gate_add(v, "period", "s", WEIR_GATE_RELATIVE, oscillation_period(v), period,
+                  weir_limit(v, 0.03, 0.01));
     weir_gate_add(v, "loss of amplitude in five periods", "1", WEIR_GATE_AT_MOST,
                   1.0 - (peak - 1.0) / (largest - 1.0), NAN, weir_limit(v, 0.2, 0.05));
     weir_gate_add(v, "largest semi-axis in the fifth period", "m", WEIR_GATE_REPORTED, peak, largest, NAN);
 }
 
 const WeirCase weir_case_oscillating_drop = {
-    .info = {"oscillating_drop", "Oscillating drop in a central force",
-             "A disc that a central force holds together is set in oscillation: its period, and how much of the "
-             "amplitude (largest semi-axis - 1) is left in the fifth period.",
-             "Monaghan, Rafiee, Int. J. Numer. Meth. Fluids 71 (2013), equations integrated"},
+    .info =
+        {"oscillating_drop", "Oscillating drop in a central force",
+         "A disc that a central force holds together is set in oscillation: its period, and how much of the "
+         "amplitude (largest semi-axis - 1) is left in the fifth period.",
+         "Monaghan, Rafiee, Int. J. Numer. Meth. Fluids 71 (2013), equations integrated"},
     .data_size = sizeof(Oscillation),
     .plan = plan_oscillating,
     .sample = sample_oscillating,
@@ -205,7 +208,8 @@ static void judge_square(WeirValidation *v)
 
 const WeirCase weir_case_rotating_square = {
     .info = {"rotating_square", "Rotating square of fluid",
-             "A square of fluid turns like a rigid body and grows arms under negative pressure: the pressure in its "
+             "A square of fluid turns like a rigid body and grows arms under negative pressure: the pressure "
+             "in its "
              "middle at the start, and whether the arms hold (gaps below two spacings) at omega t = 2.",
              "Colagrossi, thesis, Rome 2005; Le Touze et al., Int. J. Numer. Meth. Fluids 73 (2013)"},
     .data_size = sizeof(Square),
@@ -230,9 +234,10 @@ static void plan_free(WeirValidation *v)
     Free *data = v->data;
     plan_drop(v, "validation/free_drop/scene.json", weir_case_free_drop_scene,
               weir_by_resolution(v, 40.0, 100.0, 200.0), free_end, 0.02);
-    data->momentum = weir_curve_add(v, "Momentum", "change over sum m |v|", "time", "s", "change", "1", false);
-    data->angular = weir_curve_add(v, "Angular momentum", "change over the start's", "time", "s", "change", "1",
-                                   false);
+    data->momentum =
+        weir_curve_add(v, "Momentum", "change over sum m |v|", "time", "s", "change", "1", false);
+    data->angular =
+        weir_curve_add(v, "Angular momentum", "change over the start's", "time", "s", "change", "1", false);
     data->energy = weir_curve_add(v, "Energy", "kinetic and elastic, over the start's", "time", "s", "ratio",
                                   "1", false);
 }
@@ -281,7 +286,8 @@ static void judge_free(WeirValidation *v)
 
 const WeirCase weir_case_free_drop = {
     .info = {"free_drop", "Free drop without walls",
-             "A square of fluid flies and turns in empty space: momentum to the round-off of float32 (6e-8) per step, "
+             "A square of fluid flies and turns in empty space: momentum to the round-off of float32 (6e-8) "
+             "per step, "
              "angular momentum, and energy, which may only fall.",
              "conservation laws"},
     .data_size = sizeof(Free),

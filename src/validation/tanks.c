@@ -26,16 +26,15 @@ static void plan_tank(WeirValidation *v, const char *file, const char *text, dou
     snprintf(label, sizeof label, "spacing %g m", spacing);
     weir_plan_run(v, label, file, text, spacing, end, 0.1);
     tank->end_time = end;
-    tank->l2 = weir_curve_add(v, "Error of the pressure", "L2 error of the profile", "time", "s", "error", "1",
-                              false);
+    tank->l2 = weir_curve_add(v, "Error of the pressure", "L2 error of the profile", "time", "s", "error",
+                              "1", false);
     tank->bottom = weir_curve_add(v, "Error of the pressure", "bottom pressure over rho g depth", "time", "s",
                                   "error", "1", false);
     tank->energy = weir_curve_add(v, "Kinetic energy", "kinetic over potential energy", "time", "s",
                                   "energy ratio", "1", false);
-    tank->surface =
-        weir_curve_add(v, "Surface", "surface height", "time", "s", "height", "m", false);
-    tank->speed = weir_curve_add(v, "Largest speed", "largest speed over sqrt(gH)", "time", "s", "speed ratio",
-                                 "1", false);
+    tank->surface = weir_curve_add(v, "Surface", "surface height", "time", "s", "height", "m", false);
+    tank->speed = weir_curve_add(v, "Largest speed", "largest speed over sqrt(gH)", "time", "s",
+                                 "speed ratio", "1", false);
 }
 
 static double surface_height(const WeirSample *sample, const TankShape *shape)
@@ -60,8 +59,8 @@ static void add_profile(WeirValidation *v, const WeirSample *sample, const TankS
         height[(int)row] += y;
         ++count[(int)row];
     }
-    uint32_t measured = weir_curve_add(v, "Pressure at the end", "mean of each row", "height", "m",
-                                       "pressure", "Pa", false);
+    uint32_t measured =
+        weir_curve_add(v, "Pressure at the end", "mean of each row", "height", "m", "pressure", "Pa", false);
     uint32_t exact =
         weir_curve_add(v, "Pressure at the end", "rho g (H - y)", "height", "m", "pressure", "Pa", true);
     for (int row = 0; row < ROWS; ++row) {
@@ -74,7 +73,8 @@ static void add_profile(WeirValidation *v, const WeirSample *sample, const TankS
 static void sample_tank(WeirValidation *v, const WeirSample *sample, const TankShape *shape)
 {
     const Tank *tank = v->data;
-    double gravity = -(double)sample->parameters->gravity[1], weight = sample->parameters->rest_density * gravity;
+    double gravity = -(double)sample->parameters->gravity[1],
+           weight = sample->parameters->rest_density * gravity;
     double spacing = sample->parameters->particle_spacing;
     double error2 = 0.0, exact2 = 0.0, bottom = 0.0, bottom_exact = 0.0;
     for (size_t i = 0; i < sample->state->count; ++i) {
@@ -136,18 +136,19 @@ static void judge_2d(WeirValidation *v)
     const Tank *tank = v->data;
     weir_gate_add(v, "pressure profile, L2 error", "1", WEIR_GATE_AT_MOST, mean_at_end(v, tank->l2), NAN,
                   weir_limit(v, 0.03, 0.01));
-    weir_gate_add(v, "bottom pressure, error", "1", WEIR_GATE_AT_MOST, fabs(mean_at_end(v, tank->bottom)), NAN,
-                  weir_limit(v, 0.03, 0.01));
+    weir_gate_add(v, "bottom pressure, error", "1", WEIR_GATE_AT_MOST, fabs(mean_at_end(v, tank->bottom)),
+                  NAN, weir_limit(v, 0.03, 0.01));
     weir_gate_add(v, "drift of the surface in spacings", "1", WEIR_GATE_AT_MOST, surface_drift(v), NAN, 0.2);
-    weir_gate_add(v, "kinetic over potential energy", "1", WEIR_GATE_AT_MOST, max_at_end(v, tank->energy), NAN,
-                  weir_limit(v, 1e-5, 1e-6));
+    weir_gate_add(v, "kinetic over potential energy", "1", WEIR_GATE_AT_MOST, max_at_end(v, tank->energy),
+                  NAN, weir_limit(v, 1e-5, 1e-6));
 }
 
 const WeirCase weir_case_hydrostatic_2d = {
-    .info = {"hydrostatic_2d", "Hydrostatic column, 2D",
-             "Water 0.9 m deep stands for 10 s; its pressure must be rho g (H - y), its surface must not drift "
-             "and it must come to rest. Values are those of the last second.",
-             "hydrostatics"},
+    .info =
+        {"hydrostatic_2d", "Hydrostatic column, 2D",
+         "Water 0.9 m deep stands for 10 s; its pressure must be rho g (H - y), its surface must not drift "
+         "and it must come to rest. Values are those of the last second.",
+         "hydrostatics"},
     .data_size = sizeof(Tank),
     .plan = plan_2d,
     .sample = sample_2d,
@@ -172,16 +173,17 @@ static void judge_3d(WeirValidation *v)
     const Tank *tank = v->data;
     weir_gate_add(v, "pressure profile, L2 error", "1", WEIR_GATE_AT_MOST, mean_at_end(v, tank->l2), NAN,
                   weir_limit(v, 0.05, 0.015));
-    weir_gate_add(v, "bottom pressure, error", "1", WEIR_GATE_REPORTED, fabs(mean_at_end(v, tank->bottom)), NAN,
-                  NAN);
+    weir_gate_add(v, "bottom pressure, error", "1", WEIR_GATE_REPORTED, fabs(mean_at_end(v, tank->bottom)),
+                  NAN, NAN);
     weir_gate_add(v, "drift of the surface in spacings", "1", WEIR_GATE_REPORTED, surface_drift(v), NAN, NAN);
 }
 
 const WeirCase weir_case_hydrostatic_3d = {
-    .info = {"hydrostatic_3d", "Hydrostatic column, 3D",
-             "Water 0.9 m deep stands for 10 sqrt(H/g) = 3.1 s in a square well; pressure as in 2D. Values are "
-             "means of the last second.",
-             "hydrostatics"},
+    .info =
+        {"hydrostatic_3d", "Hydrostatic column, 3D",
+         "Water 0.9 m deep stands for 10 sqrt(H/g) = 3.1 s in a square well; pressure as in 2D. Values are "
+         "means of the last second.",
+         "hydrostatics"},
     .data_size = sizeof(Tank),
     .plan = plan_3d,
     .sample = sample_3d,
@@ -239,10 +241,10 @@ static void plan_splash(WeirValidation *v)
     splash->end_time = weir_by_resolution(v, 8.0, 12.0, 12.0);
     weir_plan_run(v, label, "validation/settled_tank/scene.json", weir_case_settled_tank_scene, spacing,
                   splash->end_time, 0.1);
-    splash->density = weir_curve_add(v, "Density error", "mean |rho / rho0 - 1|", "time", "s", "error", "1",
-                                     false);
-    splash->volume = weir_curve_add(v, "Volume", "under the surface, over the start's", "time", "s", "ratio",
-                                    "1", false);
+    splash->density =
+        weir_curve_add(v, "Density error", "mean |rho / rho0 - 1|", "time", "s", "error", "1", false);
+    splash->volume =
+        weir_curve_add(v, "Volume", "under the surface, over the start's", "time", "s", "ratio", "1", false);
 }
 
 static void sample_splash(WeirValidation *v, const WeirSample *sample)
@@ -263,15 +265,16 @@ static void judge_splash(WeirValidation *v)
 {
     const Splash *splash = v->data;
     double from = splash->end_time - 2.0, to = splash->end_time;
-    weir_gate_add(v, "mean density error", "1", WEIR_GATE_AT_MOST, weir_curve_mean(v, splash->density, from, to),
-                  NAN, 0.01);
+    weir_gate_add(v, "mean density error", "1", WEIR_GATE_AT_MOST,
+                  weir_curve_mean(v, splash->density, from, to), NAN, 0.01);
     weir_gate_add(v, "volume over that of the start", "1", WEIR_GATE_RELATIVE,
                   weir_curve_mean(v, splash->volume, from, to), 1.0, weir_limit(v, 0.03, 0.01));
 }
 
 const WeirCase weir_case_settled_tank = {
     .info = {"settled_tank", "Tank that settles after a splash",
-             "A column of 0.5 x 0.5 m falls apart in a tank 1 m wide and comes to rest: its density and the volume "
+             "A column of 0.5 x 0.5 m falls apart in a tank 1 m wide and comes to rest: its density and the "
+             "volume "
              "under its surface must be what they were. Values are means of the last 2 s.",
              "conservation of volume"},
     .data_size = sizeof(Splash),

@@ -35,8 +35,8 @@ static void plan(WeirValidation *v)
         WeirCaseRun *run = weir_plan_run(v, label, "validation/taylor_green/scene.json",
                                          weir_case_taylor_green_scene, side / n, end, end / 50.0);
         run->variant = disturbed;
-        data->max_speed[k] =
-            weir_curve_add(v, "Decay of the largest speed", label, "time", "s", "largest speed", "m/s", false);
+        data->max_speed[k] = weir_curve_add(v, "Decay of the largest speed", label, "time", "s",
+                                            "largest speed", "m/s", false);
         data->error[k] = weir_curve_add(v, "L1 error of the velocity", label, "time", "s",
                                         "error over the mean speed", "1", false);
         data->l1[k] = data->exponent[k] = NAN;
@@ -121,15 +121,16 @@ static void judge(WeirValidation *v)
         char name[80], plot_name[48];
         int first = k * LEVELS, finest = first + LEVELS - 1;
         snprintf(name, sizeof name, "order of convergence, %s", names[k]);
-        weir_gate_add(v, name, "1", WEIR_GATE_AT_LEAST, order(v, data->l1, first), NAN, weir_limit(v, 1.0, 1.5));
+        weir_gate_add(v, name, "1", WEIR_GATE_AT_LEAST, order(v, data->l1, first), NAN,
+                      weir_limit(v, 1.0, 1.5));
         snprintf(name, sizeof name, "decay exponent at the finest, %s", names[k]);
         weir_gate_add(v, name, "1/s", WEIR_GATE_RELATIVE, data->exponent[finest], exponent(),
                       weir_limit(v, 0.1, 0.02));
         snprintf(name, sizeof name, "L1 error at the finest, %s", names[k]);
         weir_gate_add(v, name, "1", WEIR_GATE_REPORTED, data->l1[finest], NAN, NAN);
         snprintf(plot_name, sizeof plot_name, "%s", names[k]);
-        uint32_t curve = weir_curve_add(v, "Convergence", plot_name, "spacing", "m", "L1 error at the end", "1",
-                                        false);
+        uint32_t curve =
+            weir_curve_add(v, "Convergence", plot_name, "spacing", "m", "L1 error at the end", "1", false);
         for (int level = 0; level < LEVELS; ++level)
             weir_curve_push(v, curve, v->runs[first + level].info.spacing, data->l1[first + level]);
     }
@@ -137,7 +138,8 @@ static void judge(WeirValidation *v)
 
 const WeirCase weir_case_taylor_green = {
     .info = {"taylor_green", "Taylor-Green vortices, Re 100",
-             "Vortices decay in a periodic square until their speed is 5 % of the start's, at three spacings, from "
+             "Vortices decay in a periodic square until their speed is 5 % of the start's, at three "
+             "spacings, from "
              "a lattice and from a disturbed one: rate of decay and order of convergence.",
              "exact solution of the Navier-Stokes equations"},
     .data_size = sizeof(TaylorGreen),

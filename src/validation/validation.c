@@ -159,13 +159,12 @@ WeirStatus weir_validation_prepare(WeirValidation *v, uint32_t run, WeirScene *s
 {
     if (run >= v->run_count) return weir_fail(&v->error, WEIR_ERROR_INPUT, "run %u: there is none", run);
     const WeirCaseRun *planned = &v->runs[run];
-    WeirStatus status =
-        weir_scene_set_number(scene, "parameters.particle_spacing", planned->info.spacing);
+    WeirStatus status = weir_scene_set_number(scene, "parameters.particle_spacing", planned->info.spacing);
     if (!status && planned->path) status = weir_scene_set_number(scene, planned->path, planned->value);
     if (!status) status = weir_scene_check(scene);
-    return status ? weir_fail(&v->error, status, "%.48s: %.400s", planned->info.label,
-                              weir_scene_error(scene))
-                  : WEIR_OK;
+    return status
+               ? weir_fail(&v->error, status, "%.48s: %.400s", planned->info.label, weir_scene_error(scene))
+               : WEIR_OK;
 }
 
 void weir_validation_feed(WeirValidation *v, uint32_t run, const WeirSample *sample)

@@ -20,10 +20,10 @@ typedef struct WeirSample {
 
 typedef struct WeirCaseRun {
     WeirRunInfo info;
-    const char *path;    // scene value that distinguishes the run, "parameters.viscosity"; NULL: none
-    double value;        // of `path`
-    int variant;         // meaning is the case's
-    bool complete;       // reached its end
+    const char *path; // scene value that distinguishes the run, "parameters.viscosity"; NULL: none
+    double value;     // of `path`
+    int variant;      // meaning is the case's
+    bool complete;    // reached its end
 } WeirCaseRun;
 
 typedef struct WeirCase {

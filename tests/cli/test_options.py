@@ -8,7 +8,7 @@ from weir_process import WeirTest
 class Help(WeirTest):
     def test_help_of_the_program(self):
         output, errors = self.weir("--help")
-        for command in ("run", "bench", "info", "params"):
+        for command in ("run", "validate", "bench", "info", "params"):
             self.assertIn(f"weir {command} ", output)
         self.assertIn("Exit status", output)
         self.assertEqual(errors, "")
@@ -16,6 +16,7 @@ class Help(WeirTest):
     def test_help_of_each_command(self):
         options = {
             "run": ["--backend", "--threads", "--steps", "--time", "--set", "--search", "--dump", "--json", "--quiet"],
+            "validate": ["--backend", "--resolution", "--threads", "--out", "--json", "--list", "--quiet"],
             "bench": ["--counts", "--backends", "--search", "--json", "--csv", "--scene", "--case"],
             "info": ["--json"],
             "params": ["--markdown", "--schema", "--json"],
