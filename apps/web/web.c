@@ -77,13 +77,31 @@ int32_t weir_web_sim_advance(WeirSim *sim, double wall_seconds)
 }
 
 WEIR_WEB(weir_web_sim_set_tool)
-WeirStatus weir_web_sim_set_tool(WeirSim *sim, uint32_t kind, float x, float y, float vx, float vy,
-                                 float radius, float strength)
+WeirStatus weir_web_sim_set_tool(WeirSim *sim, uint32_t kind, float x, float y, float z, float vx, float vy,
+                                 float vz, float radius, float strength)
 {
-    return weir_sim_set_tool(
-        sim,
-        &(WeirTool){
-            .kind = kind, .position = {x, y}, .velocity = {vx, vy}, .radius = radius, .strength = strength});
+    return weir_sim_set_tool(sim, &(WeirTool){.kind = kind,
+                                              .position = {x, y, z},
+                                              .velocity = {vx, vy, vz},
+                                              .radius = radius,
+                                              .strength = strength});
+}
+
+// Fills 10 numbers in the order of WeirClock.
+WEIR_WEB(weir_web_sim_clock)
+void weir_web_sim_clock(const WeirSim *sim, double values[10])
+{
+    WeirClock clock = weir_sim_clock(sim);
+    values[0] = (double)clock.step;
+    values[1] = clock.time;
+    values[2] = clock.time_step;
+    values[3] = clock.sound_speed;
+    values[4] = clock.max_speed;
+    values[5] = clock.mach_number;
+    values[6] = clock.max_density_error;
+    values[7] = clock.fluid_particles;
+    values[8] = clock.drained_particles;
+    values[9] = clock.lost_particles;
 }
 
 // Fills 14 numbers in the order of WeirDiagnostics; the hash comes as its high and low half.

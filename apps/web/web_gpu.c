@@ -82,32 +82,59 @@ static void configure(WeirWebRenderer *web, uint32_t width, uint32_t height)
     web->height = height;
 }
 
+// A view as JavaScript hands it over: WEIR_WEB_VIEW floats in the order of the lines below.
+enum { WEIR_WEB_VIEW = 21 };
+
+static WeirView read_view(const float v[WEIR_WEB_VIEW])
+{
+    return (WeirView){
+        .color_by = (WeirColorBy)v[0],
+        .color_min = v[1],
+        .color_max = v[2],
+        .particle_radius = v[3],
+        .tool_position = {v[4], v[5], v[6]},
+        .tool_radius = v[7],
+        .tool_pressed = v[8],
+        .center = {v[9], v[10]},
+        .pixels_per_meter = v[11],
+        .camera_target = {v[12], v[13], v[14]},
+        .camera_yaw = v[15],
+        .camera_pitch = v[16],
+        .camera_distance = v[17],
+        .camera_field_of_view = v[18],
+        .camera_shift = {v[19], v[20]},
+    };
+}
+
 WEIR_WEB(weir_web_renderer_draw)
 WeirStatus weir_web_renderer_draw(WeirWebRenderer *web, WeirSim *sim, uint32_t width, uint32_t height,
-                                  uint32_t color_by, float color_min, float color_max, float center_x,
-                                  float center_y, float pixels_per_meter, float particle_radius, float tool_x,
-                                  float tool_y, float tool_radius, float tool_pressed)
+                                  const float *view)
 {
     if (width == 0 || height == 0) return WEIR_OK; // a canvas that is not shown
     configure(web, width, height);
     WGPUSurfaceTexture texture = {0};
     wgpuSurfaceGetCurrentTexture(web->surface, &texture);
     if (!texture.texture) return WEIR_ERROR_DEVICE; // weir_gpu_poll() has the reason
-    WGPUTextureView view = wgpuTextureCreateView(texture.texture, NULL);
-    const WeirView shown = {
-        .color_by = color_by,
-        .color_min = color_min,
-        .color_max = color_max,
-        .center = {center_x, center_y},
-        .pixels_per_meter = pixels_per_meter,
-        .particle_radius = particle_radius,
-        .tool_position = {tool_x, tool_y},
-        .tool_radius = tool_radius,
-        .tool_pressed = tool_pressed,
-    };
-    WeirStatus status = weir_renderer_draw(web->renderer, sim, &shown, view, width, height);
-    wgpuTextureViewRelease(view);
+    WGPUTextureView target = wgpuTextureCreateView(texture.texture, NULL);
+    const WeirView shown = read_view(view);
+    WeirStatus status = weir_renderer_draw(web->renderer, sim, &shown, target, width, height);
+    wgpuTextureViewRelease(target);
     wgpuTextureRelease(texture.texture);
     wgpuSurfacePresent(web->surface);
     return status;
+}
+
+WEIR_WEB(weir_web_view_matrix)
+void weir_web_view_matrix(const float *view, uint32_t width, uint32_t height, float matrix[16])
+{
+    const WeirView shown = read_view(view);
+    weir_view_matrix(&shown, width, height, matrix);
+}
+
+// Origin and direction of the ray through a pixel.
+WEIR_WEB(weir_web_view_ray)
+void weir_web_view_ray(const float *view, uint32_t width, uint32_t height, float x, float y, float ray[6])
+{
+    const WeirView shown = read_view(view);
+    weir_view_ray(&shown, width, height, x, y, ray, ray + 3);
 }

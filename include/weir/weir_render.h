@@ -1,5 +1,6 @@
-// Draws a simulation that runs on the GPU: every particle a round anti-aliased disc, coloured by a quantity.
-// All drawing reads the solver's own buffers; nothing is copied to the host. Link weir_render.
+// Draws a simulation that runs on the GPU: in 2D every particle a round anti-aliased disc, in 3D a shaded sphere,
+// the fluid coloured by a quantity. All drawing reads the solver's own buffers; nothing is copied to the host.
+// Link weir_render.
 #pragma once
 
 #include "weir/weir_gpu.h"
@@ -21,13 +22,28 @@ typedef enum WeirColorBy {
 typedef struct WeirView {
     WeirColorBy color_by;
     float color_min, color_max; // values at the two ends of the colour map, clamped beyond
-    float center[2];            // point of the domain in the middle of the picture
-    float pixels_per_meter;     // of the target's own (device) pixels
     float particle_radius;      // drawn radius of a particle; at least 0.5 pixels are drawn
-    float tool_position[2];     // the pointer tool's ring
+    float tool_position[3];     // the pointer tool's ring
     float tool_radius;          // 0: no ring
     float tool_pressed;         // 0 to 1: the ring is brighter while the tool acts
+    // Simulations in 2D:
+    float center[2];        // point of the domain in the middle of the picture
+    float pixels_per_meter; // of the target's own (device) pixels
+    // Simulations in 3D. The camera looks at the target from `distance` away; yaw 0 and pitch 0 look along -z with
+    // x to the right, a positive yaw moves the camera towards +x, a positive pitch upwards.
+    float camera_target[3];
+    float camera_yaw, camera_pitch; // rad; pitch between -1.57 and 1.57
+    float camera_distance;
+    float camera_field_of_view; // rad, of the picture's height
+    float camera_shift[2];      // where the target appears: 0, 0 in the middle, 1, 1 at the top right corner
 } WeirView;
+
+// The camera as a matrix, column by column: clip = matrix * (x, y, z, 1). Depth (clip z / clip w) is 1 at the near
+// plane and goes to 0 far away.
+void weir_view_matrix(const WeirView *view, uint32_t width, uint32_t height, float matrix[16]);
+// The ray from the camera through the pixel x, y (y down); `direction` has length 1.
+void weir_view_ray(const WeirView *view, uint32_t width, uint32_t height, float x, float y, float origin[3],
+                   float direction[3]);
 
 // Makes the pipelines for a colour target of `format`, a WGPUTextureFormat. NULL only if memory runs out; faults
 // of the shaders show in weir_gpu_poll().

@@ -7,14 +7,6 @@ fn background_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) v
     return vec4f(f32(vertex & 1u) * 4.0 - 1.0, f32(vertex >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-// White noise in 0..1, the same for a pixel in every frame (integer hash after Jarzynski and Olano, "Hash
-// Functions for GPU Rendering", 2020: pcg).
-fn pixel_noise(pixel: vec2u) -> f32 {
-    var state = (pixel.x + pixel.y * 65537u) * 747796405u + 2891336453u;
-    state = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return f32(((state >> 22u) ^ state) & 0xffffu) / 65535.0;
-}
-
 @fragment
 fn background_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let uv = place.xy / frame.size;
@@ -23,8 +15,8 @@ fn background_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let outside = mix(vec3f(0.031, 0.045, 0.078), vec3f(0.016, 0.023, 0.043), uv.y);
 
     // Inside, light falls in from above.
-    let domain_top = to_pixels(frame.domain_max).y;
-    let domain_bottom = to_pixels(frame.domain_min).y;
+    let domain_top = to_pixels(frame.domain_max.xy).y;
+    let domain_bottom = to_pixels(frame.domain_min.xy).y;
     let depth = clamp((place.y - domain_top) / max(domain_bottom - domain_top, 1.0), 0.0, 1.0);
     let inside = mix(vec3f(0.050, 0.082, 0.138), vec3f(0.020, 0.033, 0.066), sqrt(depth));
 

@@ -1,5 +1,5 @@
-// particles: every particle a round anti-aliased disc.
-// in:  frame, color_maps, position, velocity, flow
+// particles: every particle of fluid, walls and bodies a round anti-aliased disc.
+// in:  frame, color_maps, particles
 // out: premultiplied colour
 
 struct Disc {
@@ -10,11 +10,16 @@ struct Disc {
 
 @vertex
 fn particles_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Disc {
-    let corner = square_corner(vertex) * max(frame.particle_radius + 0.5, 1.5);
     var disc: Disc;
-    disc.place = to_clip(to_pixels(position[particle]) + corner);
+    let kind = particle_kind(particle);
+    if kind == HIDDEN {
+        disc.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
+        return disc;
+    }
+    let corner = square_corner(vertex) * max(frame.particle_radius + 0.5, 1.5);
+    disc.place = to_clip(to_pixels(particle_position(particle).xy) + corner);
     disc.offset = corner;
-    disc.color = to_target(color_map(color_value(particle)));
+    disc.color = to_target(particle_color(particle, kind));
     return disc;
 }
 

@@ -1,90 +1,160 @@
-// The effects' pipelines: frame.wgsl and the effect's own file make one shader; no vertex buffers, no depth.
+// The effects' pipelines: shared text, the method's particles and the effect's own file make one shader; no vertex
+// buffers.
+#include "render/effect.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/renderer.h"
-
-extern const char weir_wgsl_render_frame[];
-extern const char weir_wgsl_render_background[];
-extern const char weir_wgsl_render_body[];
-extern const char weir_wgsl_render_particles[];
+extern const char weir_wgsl_render_frame[], weir_wgsl_render_particle[];
+extern const char weir_wgsl_render_particles_mueller[], weir_wgsl_render_particles_wcsph[];
+extern const char weir_wgsl_render_background[], weir_wgsl_render_water[], weir_wgsl_render_particles[];
 extern const char weir_wgsl_render_overlay[];
+extern const char weir_wgsl_render_space_space[], weir_wgsl_render_space_shadow[];
+extern const char weir_wgsl_render_space_backdrop[], weir_wgsl_render_space_ground[];
+extern const char weir_wgsl_render_space_spheres[], weir_wgsl_render_space_edges[];
+extern const char weir_wgsl_render_space_occlusion[], weir_wgsl_render_space_compose[];
 
-typedef struct EffectText {
+typedef enum Target {
+    TARGET_PICTURE,   // the caller's
+    TARGET_SCENE,     // several samples, with depth
+    TARGET_SHADOW,    // depth only
+    TARGET_OCCLUSION, // one sample, no depth
+} Target;
+
+typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
     const char *source;
-} EffectText;
+    Target target;
+    WeirTextures textures;
+    bool particles;   // reads them
+    bool blends;      // premultiplied colours over what is there
+    bool tests_depth; // is hidden by what is nearer
+    bool writes_depth;
+    bool covers; // alpha is the share of the samples that it covers
+} Effect;
 
-static const EffectText effect_texts[WEIR_EFFECTS] = {
-    [WEIR_EFFECT_BACKGROUND] = {"background", weir_wgsl_render_background},
-    [WEIR_EFFECT_BODY] = {"body", weir_wgsl_render_body},
-    [WEIR_EFFECT_PARTICLES] = {"particles", weir_wgsl_render_particles},
-    [WEIR_EFFECT_OVERLAY] = {"overlay", weir_wgsl_render_overlay},
+#define EFFECT(label, text, ...) {.name = label, .source = weir_wgsl_render_##text, __VA_ARGS__}
+static const Effect effects[WEIR_EFFECTS] = {
+    [WEIR_EFFECT_BACKGROUND] = EFFECT("background", background, .blends = false),
+    [WEIR_EFFECT_WATER] = EFFECT("water", water, .particles = true, .blends = true),
+    [WEIR_EFFECT_PARTICLES] = EFFECT("particles", particles, .particles = true, .blends = true),
+    [WEIR_EFFECT_OVERLAY] = EFFECT("overlay", overlay, .blends = true),
+    [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .particles = true,
+                                  .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
+    [WEIR_EFFECT_GROUND] =
+        EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_SHADOW,
+               .blends = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SPHERES] =
+        EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_SHADOW,
+               .particles = true, .tests_depth = true, .writes_depth = true, .covers = true),
+    [WEIR_EFFECT_EDGES] =
+        EFFECT("edges", space_edges, .target = TARGET_SCENE, .blends = true, .tests_depth = true),
+    [WEIR_EFFECT_OCCLUSION] =
+        EFFECT("occlusion", space_occlusion, .target = TARGET_OCCLUSION, .textures = WEIR_TEXTURES_OCCLUSION),
+    [WEIR_EFFECT_COMPOSE] = EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE),
 };
+
+WeirTextures weir_effect_textures(WeirEffectKind kind)
+{
+    return effects[kind].textures;
+}
 
 static WGPUStringView text_view(const char *text)
 {
     return (WGPUStringView){.data = text, .length = strlen(text)};
 }
 
-static WGPUShaderModule create_module(WGPUDevice device, const EffectText *text)
+// One shader of several texts; NULL if memory runs out.
+static WGPUShaderModule create_module(WGPUDevice device, const char *name, const char *const *parts,
+                                      size_t count)
 {
-    size_t shared = strlen(weir_wgsl_render_frame), own = strlen(text->source);
-    char *source = malloc(shared + own + 1);
+    size_t length = 0;
+    for (size_t k = 0; k < count; k++) length += strlen(parts[k]);
+    char *source = malloc(length + 1), *end = source;
     if (!source) return NULL;
-    memcpy(source, weir_wgsl_render_frame, shared);
-    memcpy(source + shared, text->source, own + 1);
+    for (size_t k = 0; k < count; k++) {
+        size_t size = strlen(parts[k]);
+        memcpy(end, parts[k], size);
+        end += size;
+    }
     WGPUShaderSourceWGSL wgsl = {.chain = {.sType = WGPUSType_ShaderSourceWGSL},
-                                 .code = {.data = source, .length = shared + own}};
-    WGPUShaderModuleDescriptor descriptor = {.nextInChain = &wgsl.chain, .label = text_view(text->name)};
+                                 .code = {.data = source, .length = length}};
+    WGPUShaderModuleDescriptor descriptor = {.nextInChain = &wgsl.chain, .label = text_view(name)};
     WGPUShaderModule module = wgpuDeviceCreateShaderModule(device, &descriptor);
     free(source);
     return module;
 }
 
-WGPURenderPipeline weir_effect_create(WeirEffectKind kind, const WeirEffectSetup *setup)
+static WGPUShaderModule effect_module(const Effect *effect, WeirMethod method, WGPUDevice device)
 {
-    const EffectText *text = &effect_texts[kind];
-    WGPUShaderModule module = create_module(setup->device, text);
+    const char *parts[5] = {weir_wgsl_render_frame};
+    size_t count = 1;
+    if (effect->particles) {
+        parts[count++] = method == WEIR_METHOD_WCSPH ? weir_wgsl_render_particles_wcsph
+                                                     : weir_wgsl_render_particles_mueller;
+        parts[count++] = weir_wgsl_render_particle;
+    }
+    if (effect >= &effects[WEIR_EFFECT_SHADOW]) parts[count++] = weir_wgsl_render_space_space;
+    parts[count++] = effect->source;
+    return create_module(device, effect->name, parts, count);
+}
+
+static WGPUTextureFormat color_format(const Effect *effect, WGPUTextureFormat target)
+{
+    if (effect->target == TARGET_PICTURE) return target;
+    return effect->target == TARGET_SCENE ? WEIR_SCENE_FORMAT : WEIR_OCCLUSION_FORMAT;
+}
+
+// The shadow map keeps what is nearest to the light at depth 0; the scene's depth falls with distance.
+static WGPUDepthStencilState depth_state(const Effect *effect)
+{
+    WGPUCompareFunction nearer =
+        effect->target == TARGET_SHADOW ? WGPUCompareFunction_Less : WGPUCompareFunction_Greater;
+    return (WGPUDepthStencilState){
+        .format = WEIR_DEPTH_FORMAT,
+        .depthWriteEnabled = effect->writes_depth ? WGPUOptionalBool_True : WGPUOptionalBool_False,
+        .depthCompare = effect->tests_depth ? nearer : WGPUCompareFunction_Always,
+        .stencilFront = {.compare = WGPUCompareFunction_Always},
+        .stencilBack = {.compare = WGPUCompareFunction_Always},
+    };
+}
+
+WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WGPUDevice device,
+                                      WGPUPipelineLayout layout, WGPUTextureFormat target)
+{
+    const Effect *effect = &effects[kind];
+    WGPUShaderModule module = effect_module(effect, method, device);
     if (!module) return NULL;
     char vertex_entry[32], fragment_entry[32];
-    snprintf(vertex_entry, sizeof vertex_entry, "%s_vertex", text->name);
-    snprintf(fragment_entry, sizeof fragment_entry, "%s_fragment", text->name);
+    snprintf(vertex_entry, sizeof vertex_entry, "%s_vertex", effect->name);
+    snprintf(fragment_entry, sizeof fragment_entry, "%s_fragment", effect->name);
     WGPUBlendComponent over = {.operation = WGPUBlendOperation_Add,
                                .srcFactor = WGPUBlendFactor_One,
                                .dstFactor = WGPUBlendFactor_OneMinusSrcAlpha};
     WGPUBlendState blend = {.color = over, .alpha = over};
-    WGPUColorTargetState target = {.format = setup->format,
-                                   .blend = kind == WEIR_EFFECT_BACKGROUND ? NULL : &blend,
-                                   .writeMask = WGPUColorWriteMask_All};
+    WGPUColorTargetState color = {.format = color_format(effect, target),
+                                  .blend = effect->blends ? &blend : NULL,
+                                  .writeMask = WGPUColorWriteMask_All};
     WGPUFragmentState fragment = {
-        .module = module, .entryPoint = text_view(fragment_entry), .targetCount = 1, .targets = &target};
+        .module = module, .entryPoint = text_view(fragment_entry), .targetCount = 1, .targets = &color};
+    WGPUDepthStencilState depth = depth_state(effect);
+    bool has_depth = effect->target == TARGET_SCENE || effect->target == TARGET_SHADOW;
     WGPURenderPipelineDescriptor descriptor = {
-        .label = text_view(text->name),
-        .layout = setup->layout,
+        .label = text_view(effect->name),
+        .layout = layout,
         .vertex = {.module = module, .entryPoint = text_view(vertex_entry)},
         .primitive = {.topology = WGPUPrimitiveTopology_TriangleStrip,
                       .frontFace = WGPUFrontFace_CCW,
                       .cullMode = WGPUCullMode_None},
-        .multisample = {.count = 1, .mask = 0xFFFFFFFF},
-        .fragment = &fragment,
+        .depthStencil = has_depth ? &depth : NULL,
+        .multisample = {.count = effect->target == TARGET_SCENE ? WEIR_SCENE_SAMPLES : 1,
+                        .mask = 0xFFFFFFFF,
+                        .alphaToCoverageEnabled = effect->covers},
+        .fragment = effect->target == TARGET_SHADOW ? NULL : &fragment,
     };
-    WGPURenderPipeline pipeline = wgpuDeviceCreateRenderPipeline(setup->device, &descriptor);
+    WGPURenderPipeline pipeline = wgpuDeviceCreateRenderPipeline(device, &descriptor);
     wgpuShaderModuleRelease(module);
     return pipeline;
-}
-
-void weir_effect_draw(WeirEffectKind kind, WGPURenderPipeline pipeline, WGPURenderPassEncoder pass,
-                      const WeirFrame *frame, uint32_t particle_count)
-{
-    uint32_t vertices = 4, instances = particle_count;
-    if (kind == WEIR_EFFECT_BACKGROUND) {
-        vertices = 3;
-        instances = 1;
-    } else if (kind == WEIR_EFFECT_OVERLAY) {
-        instances = frame->tool_radius > 0.0f ? 5 : 4; // four sides of the outline, then the ring
-    }
-    wgpuRenderPassEncoderSetPipeline(pass, pipeline);
-    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, 0);
 }

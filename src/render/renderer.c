@@ -1,15 +1,7 @@
-// The renderer: pipelines made once, one uniform write and one render pass per frame, nothing
-// allocated per frame.
-#include <math.h>
-#include <stdlib.h>
-
-#include "core/sim.h"
+// The renderer: pipelines made once, one uniform write and one submit per frame, nothing allocated per frame.
 #include "render/renderer.h"
 
-static bool target_encodes(WGPUTextureFormat format)
-{
-    return format == WGPUTextureFormat_BGRA8UnormSrgb || format == WGPUTextureFormat_RGBA8UnormSrgb;
-}
+#include <stdlib.h>
 
 static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
 {
@@ -34,9 +26,16 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     }
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = particle_entries});
-    WGPUBindGroupLayout groups[2] = {renderer->frame_layout, renderer->particle_layout};
-    renderer->pipeline_layout = wgpuDeviceCreatePipelineLayout(
-        device, &(WGPUPipelineLayoutDescriptor){.bindGroupLayoutCount = 2, .bindGroupLayouts = groups});
+    weir_space_create_layouts(renderer, device);
+    for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
+        WGPUBindGroupLayout groups[3] = {renderer->frame_layout, renderer->particle_layout,
+                                         renderer->texture_layouts[textures]};
+        renderer->pipeline_layouts[textures] = wgpuDeviceCreatePipelineLayout(
+            device, &(WGPUPipelineLayoutDescriptor){
+                        .bindGroupLayoutCount = textures == WEIR_TEXTURES_NONE ? 2 : 3,
+                        .bindGroupLayouts = groups,
+                    });
+    }
 }
 
 static void create_frame_group(WeirRenderer *renderer, WGPUDevice device, WGPUQueue queue)
@@ -70,20 +69,33 @@ static WeirStatus prepare(WeirRenderer *renderer)
         return weir_fail(&renderer->message, status, "The renderer has no device: %s.", reason);
     }
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
-    if (!renderer->pipeline_layout) create_layouts(renderer, device);
-    WeirEffectSetup setup = {
-        .device = device, .layout = renderer->pipeline_layout, .format = renderer->format};
-    for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
-        if (renderer->pipelines[kind]) continue;
-        renderer->pipelines[kind] = weir_effect_create((WeirEffectKind)kind, &setup);
-        if (!renderer->pipelines[kind]) {
+    if (!renderer->frame_layout) create_layouts(renderer, device);
+    create_frame_group(renderer, device, weir_gpu_wgpu_queue(renderer->gpu));
+    if (renderer->frame_group) return WEIR_OK;
+    return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the renderer's uniforms.");
+}
+
+static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension)
+{
+    WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
+    int first = dimension == 3 ? WEIR_EFFECT_SHADOW : WEIR_EFFECT_BACKGROUND;
+    int end = dimension == 3 ? WEIR_EFFECTS : WEIR_EFFECT_SHADOW;
+    bool made = false;
+    for (int kind = first; kind < end; kind++) {
+        WGPURenderPipeline *pipeline = &renderer->pipelines[method][kind];
+        if (*pipeline) continue;
+        made = true;
+        WGPUPipelineLayout layout = renderer->pipeline_layouts[weir_effect_textures((WeirEffectKind)kind)];
+        *pipeline = weir_effect_create((WeirEffectKind)kind, method, device, layout, renderer->format);
+        if (!*pipeline) {
             return weir_fail(&renderer->message, WEIR_ERROR_MEMORY,
                              "No memory for the renderer's pipelines.");
         }
     }
-    create_frame_group(renderer, device, weir_gpu_wgpu_queue(renderer->gpu));
-    if (renderer->frame_group) return WEIR_OK;
-    return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the renderer's uniforms.");
+    // Where faults come at once (natively), a pipeline that is none must not be drawn with.
+    if (!made || weir_gpu_poll(renderer->gpu) == WEIR_OK) return WEIR_OK;
+    return weir_fail(&renderer->message, WEIR_ERROR_DEVICE, "The renderer's pipelines failed: %s.",
+                     weir_gpu_error(renderer->gpu));
 }
 
 WeirRenderer *weir_renderer_create(WeirGpu *gpu, uint32_t format)
@@ -119,10 +131,17 @@ void weir_renderer_destroy(WeirRenderer *renderer)
     if (renderer->frame_group) wgpuBindGroupRelease(renderer->frame_group);
     release_buffer(renderer->frame_buffer);
     release_buffer(renderer->color_buffer);
-    for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
-        if (renderer->pipelines[kind]) wgpuRenderPipelineRelease(renderer->pipelines[kind]);
+    for (int method = 0; method < 2; method++) {
+        for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
+            WGPURenderPipeline pipeline = renderer->pipelines[method][kind];
+            if (pipeline) wgpuRenderPipelineRelease(pipeline);
+        }
     }
-    if (renderer->pipeline_layout) wgpuPipelineLayoutRelease(renderer->pipeline_layout);
+    for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
+        WGPUPipelineLayout layout = renderer->pipeline_layouts[textures];
+        if (layout) wgpuPipelineLayoutRelease(layout);
+    }
+    weir_space_release(renderer);
     if (renderer->particle_layout) wgpuBindGroupLayoutRelease(renderer->particle_layout);
     if (renderer->frame_layout) wgpuBindGroupLayoutRelease(renderer->frame_layout);
     free(renderer);
@@ -137,7 +156,11 @@ const char *weir_renderer_error(const WeirRenderer *renderer)
 // not drawn for a while are given up, so that a destroyed simulation's buffers do not stay in memory.
 static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticles *particles)
 {
-    WGPUBuffer buffers[3] = {particles->position, particles->velocity, particles->flow};
+    bool wcsph = particles->method == WEIR_METHOD_WCSPH;
+    // wcsph has two: the third binding, which its shaders do not have, gets the second one again.
+    WGPUBuffer buffers[3] = {wcsph ? particles->coordinate : particles->position,
+                             wcsph ? particles->motion : particles->velocity,
+                             wcsph ? particles->motion : particles->flow};
     WeirParticleGroup *oldest = &renderer->groups[0], *found = NULL;
     for (WeirParticleGroup *slot = renderer->groups; slot < renderer->groups + WEIR_PARTICLE_GROUPS; slot++) {
         if (slot->group && slot->buffers[0] == buffers[0] && slot->buffers[1] == buffers[1] &&
@@ -166,102 +189,99 @@ static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticl
     return found->group;
 }
 
-static WeirStatus check_input(WeirRenderer *renderer, const WeirView *view, const void *target,
-                              uint32_t width, uint32_t height)
+void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
+                          const WeirDrawing *drawing)
 {
-    WeirMessage *message = &renderer->message;
-    if (!view || !target) return weir_fail(message, WEIR_ERROR_INPUT, "A frame needs a view and a target.");
-    if (width == 0 || height == 0) {
-        return weir_fail(message, WEIR_ERROR_INPUT, "The target is %u x %u pixels; both must be at least 1.",
-                         width, height);
+    uint32_t vertices = 4, instances = 1;
+    switch (kind) {
+    case WEIR_EFFECT_WATER:
+    case WEIR_EFFECT_PARTICLES:
+    case WEIR_EFFECT_SHADOW:
+    case WEIR_EFFECT_SPHERES:
+        instances = drawing->particle_count;
+        break;
+    case WEIR_EFFECT_OVERLAY: // four sides of the outline, then the ring
+        instances = drawing->frame->tool_radius > 0.0f ? 5 : 4;
+        break;
+    case WEIR_EFFECT_EDGES:
+        instances = 12;
+        break;
+    case WEIR_EFFECT_GROUND:
+        break;
+    default:
+        vertices = 3;
+        break; // the whole picture
     }
-    if ((uint32_t)view->color_by >= WEIR_COLOR_MAPS) {
-        return weir_fail(message, WEIR_ERROR_INPUT, "color_by is %u; allowed are 0 to %d.",
-                         (unsigned)view->color_by, WEIR_COLOR_MAPS - 1);
-    }
-    const struct {
-        const char *name;
-        float value;
-        bool positive; // else any finite number
-    } numbers[] = {
-        {"color_min", view->color_min, false},
-        {"color_max", view->color_max, false},
-        {"center[0]", view->center[0], false},
-        {"center[1]", view->center[1], false},
-        {"pixels_per_meter", view->pixels_per_meter, true},
-        {"particle_radius", view->particle_radius, true},
-        {"tool_position[0]", view->tool_position[0], false},
-        {"tool_position[1]", view->tool_position[1], false},
-        {"tool_radius", view->tool_radius, false},
-        {"tool_pressed", view->tool_pressed, false},
-    };
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
-        if (isfinite(numbers[k].value) && (!numbers[k].positive || numbers[k].value > 0.0f)) continue;
-        return weir_fail(message, WEIR_ERROR_INPUT, "%s is %g; it must be a finite number%s.",
-                         numbers[k].name, (double)numbers[k].value, numbers[k].positive ? " above 0" : "");
-    }
-    return WEIR_OK;
+    wgpuRenderPassEncoderSetPipeline(pass, renderer->pipelines[drawing->method][kind]);
+    wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
+    wgpuRenderPassEncoderSetBindGroup(pass, 1, drawing->particles, 0, NULL);
+    WeirTextures textures = weir_effect_textures(kind);
+    if (textures != WEIR_TEXTURES_NONE)
+        wgpuRenderPassEncoderSetBindGroup(pass, 2, renderer->space.groups[textures], 0, NULL);
+    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, 0);
 }
 
-static void fill_frame(WeirFrame *frame, WeirSim *sim, const WeirView *view, uint32_t width, uint32_t height,
-                       WGPUTextureFormat format)
+static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
-    const WeirConstants *constants = weir_sim_constants(sim);
-    const WeirParameters *parameters = weir_sim_parameters(sim);
-    float range = view->color_max - view->color_min;
-    *frame = (WeirFrame){
-        .size = {(float)width, (float)height},
-        .tool_radius = fmaxf(view->tool_radius, 0.0f) * view->pixels_per_meter,
-        .tool_pressed = fminf(fmaxf(view->tool_pressed, 0.0f), 1.0f),
-        .color_min = view->color_min,
-        .color_scale = range != 0.0f ? 1.0f / range : 0.0f,
-        .color_by = (uint32_t)view->color_by,
-        .linear_target = target_encodes(format),
-        .pixels_per_meter = view->pixels_per_meter,
-        .particle_radius = view->particle_radius * view->pixels_per_meter,
-        .body_radius = fmaxf(1.5f * parameters->particle_spacing * view->pixels_per_meter, 1.5f),
-        .line_scale = fminf(fmaxf((float)(width < height ? width : height) / 1000.0f, 1.0f), 4.0f),
-        .rest_density = parameters->rest_density,
-    };
-    for (int k = 0; k < 2; k++) {
-        frame->center[k] = view->center[k];
-        frame->domain_min[k] = constants->domain_min[k];
-        frame->domain_max[k] = constants->domain_max[k];
-        frame->tool_position[k] = view->tool_position[k];
-    }
-}
-
-static void encode(WeirRenderer *renderer, const WeirFrame *frame, WGPUBindGroup particles, uint32_t count,
-                   WGPUTextureView target)
-{
-    WGPUQueue queue = weir_gpu_wgpu_queue(renderer->gpu);
-    wgpuQueueWriteBuffer(queue, renderer->frame_buffer, 0, frame, sizeof *frame);
-    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(weir_gpu_wgpu_device(renderer->gpu), NULL);
-    WGPURenderPassColorAttachment attachment = {.view = target,
+    WGPURenderPassColorAttachment attachment = {.view = drawing->target,
                                                 .depthSlice = WGPU_DEPTH_SLICE_UNDEFINED,
                                                 .loadOp = WGPULoadOp_Clear,
                                                 .storeOp = WGPUStoreOp_Store,
                                                 .clearValue = {.a = 1.0}};
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &attachment});
-    wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
-    wgpuRenderPassEncoderSetBindGroup(pass, 1, particles, 0, NULL);
-    for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
-        if (!(renderer->effects & 1u << kind)) continue;
-        weir_effect_draw((WeirEffectKind)kind, renderer->pipelines[kind], pass, frame, count);
+        drawing->encoder,
+        &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &attachment});
+    for (int kind = WEIR_EFFECT_BACKGROUND; kind <= WEIR_EFFECT_OVERLAY; kind++) {
+        if (renderer->effects & 1u << kind)
+            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, drawing);
     }
     wgpuRenderPassEncoderEnd(pass);
-    WGPUCommandBuffer commands = wgpuCommandEncoderFinish(encoder, NULL);
+    wgpuRenderPassEncoderRelease(pass);
+}
+
+static void submit(WeirRenderer *renderer, WeirDrawing *drawing, uint32_t dimension)
+{
+    WGPUQueue queue = weir_gpu_wgpu_queue(renderer->gpu);
+    wgpuQueueWriteBuffer(queue, renderer->frame_buffer, 0, drawing->frame, sizeof *drawing->frame);
+    drawing->encoder = wgpuDeviceCreateCommandEncoder(weir_gpu_wgpu_device(renderer->gpu), NULL);
+    if (dimension == 3)
+        weir_space_draw(renderer, drawing);
+    else
+        draw_flat(renderer, drawing);
+    WGPUCommandBuffer commands = wgpuCommandEncoderFinish(drawing->encoder, NULL);
     wgpuQueueSubmit(queue, 1, &commands);
     wgpuCommandBufferRelease(commands);
-    wgpuRenderPassEncoderRelease(pass);
-    wgpuCommandEncoderRelease(encoder);
+    wgpuCommandEncoderRelease(drawing->encoder);
+}
+
+WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *sim,
+                                        const WeirGpuParticles *particles, const WeirView *view, void *target,
+                                        uint32_t width, uint32_t height)
+{
+    uint32_t dimension = weir_sim_dimension(sim);
+    WeirStatus status = prepare(renderer);
+    if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension);
+    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height);
+    if (status != WEIR_OK) return status;
+    WeirFrame frame;
+    weir_frame_fill(&frame, sim, view, width, height, renderer->format);
+    WeirDrawing drawing = {.particles = particle_group(renderer, particles),
+                           .particle_count = particles->count,
+                           .method = particles->method,
+                           .frame = &frame,
+                           .target = target};
+    if (!drawing.particles)
+        return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No memory to draw the particles.");
+    submit(renderer, &drawing, dimension);
+    renderer->frame_count++;
+    return WEIR_OK;
 }
 
 WeirStatus weir_renderer_draw(WeirRenderer *renderer, WeirSim *sim, const WeirView *view, void *target,
                               uint32_t width, uint32_t height)
 {
-    WeirStatus status = check_input(renderer, view, target, width, height);
+    uint32_t dimension = sim ? weir_sim_dimension(sim) : 2;
+    WeirStatus status = weir_frame_check(view, dimension, target, width, height, &renderer->message);
     if (status != WEIR_OK) return status;
     WeirGpuParticles particles;
     if (!sim || !weir_gpu_particles(sim, &particles) || particles.gpu != renderer->gpu) {
@@ -270,13 +290,5 @@ WeirStatus weir_renderer_draw(WeirRenderer *renderer, WeirSim *sim, const WeirVi
             "The simulation does not run on the renderer's device; make it with weir_gpu_backend() of "
             "the same WeirGpu.");
     }
-    status = prepare(renderer);
-    if (status != WEIR_OK) return status;
-    WGPUBindGroup group = particle_group(renderer, &particles);
-    if (!group) return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No memory to draw the particles.");
-    WeirFrame frame;
-    fill_frame(&frame, sim, view, width, height, renderer->format);
-    encode(renderer, &frame, group, particles.count, (WGPUTextureView)target);
-    renderer->frame_count++;
-    return WEIR_OK;
+    return weir_renderer_draw_particles(renderer, sim, &particles, view, target, width, height);
 }

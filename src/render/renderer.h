@@ -1,76 +1,72 @@
 // Inside of the renderer, for its own files and its tests.
 #pragma once
 
-#include <stddef.h>
-
-#include "gpu/gpu.h"
-#include "render/color_map.h"
-
-// What one frame shows, copied byte by byte to `struct Frame` of shaders/render/frame.wgsl.
-typedef struct WeirFrame {
-    float center[2];
-    float size[2];
-    float domain_min[2];
-    float domain_max[2];
-    float tool_position[2];
-    float tool_radius;
-    float tool_pressed;
-    float color_min;
-    float color_scale;
-    uint32_t color_by;
-    uint32_t linear_target;
-    float pixels_per_meter;
-    float particle_radius;
-    float body_radius;
-    float line_scale;
-    float rest_density;
-    float unused;
-} WeirFrame;
-_Static_assert(offsetof(WeirFrame, tool_radius) == 40, "frame.wgsl: tool_radius");
-_Static_assert(offsetof(WeirFrame, color_by) == 56, "frame.wgsl: color_by");
-_Static_assert(offsetof(WeirFrame, rest_density) == 80, "frame.wgsl: rest_density");
-_Static_assert(sizeof(WeirFrame) == 88, "frame.wgsl: size, a multiple of 8");
-
-// The effects in the order they are drawn; one WGSL file each.
-typedef enum WeirEffectKind {
-    WEIR_EFFECT_BACKGROUND,
-    WEIR_EFFECT_BODY,
-    WEIR_EFFECT_PARTICLES,
-    WEIR_EFFECT_OVERLAY,
-    WEIR_EFFECTS, // how many
-} WeirEffectKind;
-
-// What the effects share: layouts of bind group 0 (frame, colour maps) and 1 (particles).
-typedef struct WeirEffectSetup {
-    WGPUDevice device;
-    WGPUPipelineLayout layout;
-    WGPUTextureFormat format;
-} WeirEffectSetup;
-// Builds the pipeline of one effect; NULL if memory runs out. Faults of the shader go to the device.
-WGPURenderPipeline weir_effect_create(WeirEffectKind kind, const WeirEffectSetup *setup);
-// Records one effect into a pass whose bind groups are set.
-void weir_effect_draw(WeirEffectKind kind, WGPURenderPipeline pipeline, WGPURenderPassEncoder pass,
-                      const WeirFrame *frame, uint32_t particle_count);
+#include "render/effect.h"
+#include "render/frame.h"
 
 // Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
 typedef struct WeirParticleGroup {
-    WGPUBuffer
-        buffers[3]; // position, velocity, flow; references held, so that no new buffer gets their address
-    WGPUBindGroup group; // NULL: free
+    WGPUBuffer buffers[3]; // as bound; references held, so that no new buffer gets their address
+    WGPUBindGroup group;   // NULL: free
     uint64_t last_frame;
 } WeirParticleGroup;
 enum { WEIR_PARTICLE_GROUPS = 8, WEIR_PARTICLE_GROUP_FRAMES = 120 };
 
+// The textures between the passes of a picture in 3D, and the bind groups that hold them.
+typedef enum WeirSpaceTexture {
+    WEIR_SPACE_SHADOW,    // the shadow map
+    WEIR_SPACE_SAMPLES,   // the scene's colours, several samples per pixel
+    WEIR_SPACE_DEPTH,     // its depth, as many samples
+    WEIR_SPACE_COLOR,     // its colours, one per pixel
+    WEIR_SPACE_OCCLUSION, // half as wide and high
+    WEIR_SPACE_TEXTURES,
+} WeirSpaceTexture;
+
+typedef struct WeirSpace {
+    uint32_t width, height; // of the picture that they are made for; 0: none yet
+    WGPUTexture textures[WEIR_SPACE_TEXTURES];
+    WGPUTextureView views[WEIR_SPACE_TEXTURES];
+    WGPUBindGroup groups[WEIR_TEXTURE_GROUPS];
+} WeirSpace;
+
 struct WeirRenderer {
     WeirGpu *gpu;
     WGPUTextureFormat format;
-    WGPUBindGroupLayout frame_layout, particle_layout;
-    WGPUPipelineLayout pipeline_layout;
-    WGPURenderPipeline pipelines[WEIR_EFFECTS];
+    // Bind group 0: frame and colour maps, 1: particles, 2: textures.
+    WGPUBindGroupLayout frame_layout, particle_layout, texture_layouts[WEIR_TEXTURE_GROUPS];
+    WGPUPipelineLayout pipeline_layouts[WEIR_TEXTURE_GROUPS];
+    WGPURenderPipeline pipelines[2][WEIR_EFFECTS]; // by WeirMethod; made when first drawn
     WGPUBuffer frame_buffer, color_buffer;
     WGPUBindGroup frame_group;
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
+    WeirSpace space;
     uint64_t frame_count;
     uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
     WeirMessage message;
 };
+
+// What the parts of one frame are recorded with.
+typedef struct WeirDrawing {
+    WGPUCommandEncoder encoder;
+    WGPUBindGroup particles;
+    uint32_t particle_count;
+    WeirMethod method;
+    const WeirFrame *frame;
+    WGPUTextureView target;
+} WeirDrawing;
+
+// weir_renderer_draw() with any buffers in place of the simulation's own; the input is not checked.
+WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *sim,
+                                        const WeirGpuParticles *particles, const WeirView *view, void *target,
+                                        uint32_t width, uint32_t height);
+
+// Records one effect into a pass, with its bind groups.
+void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
+                          const WeirDrawing *drawing);
+
+// space.c
+void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device);
+// Makes the textures for a picture of that size, if they are not there.
+WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height);
+void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing);
+void weir_space_release(WeirRenderer *renderer);

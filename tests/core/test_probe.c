@@ -32,7 +32,8 @@ static WeirScene *block_scene(uint32_t dimension, bool periodic)
     CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){1, 1, 0.4}), WEIR_OK);
     if (periodic) CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", "xy"), WEIR_OK);
     double height = periodic ? 1.0 : 0.5;
-    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, height, 0.4}, NULL), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, height, 0.4}, NULL),
+                WEIR_OK);
     return scene;
 }
 
@@ -177,8 +178,7 @@ static void test_walls_and_empty_slots_do_not_count(void **state)
     CHECK_NEAR(measure(&made, below, values), 0.0, 0.0);
     made.world.particles.group[0] = WEIR_GROUP_INLET + 2;
     CHECK_NEAR(measure(&made, below, values), 0.4, 1e-6);
-    WeirProbePiece pressure = {.kind = WEIR_PROBE_PRESSURE,
-                               .position = {made.position[0], made.position[1]}};
+    WeirProbePiece pressure = {.kind = WEIR_PROBE_PRESSURE, .position = {made.position[0], made.position[1]}};
     CHECK_NEAR(measure(&made, pressure, values), 7.0, 1e-6);
     unmake(&made);
 }

@@ -1,15 +1,16 @@
-// weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT STEPS [COLOR_BY MIN MAX [ZOOM X Y [TOOL_PRESSED]]]
-// Draws one frame of a scene as the page would and writes it as a PPM file, to be looked at. The steps are
-// taken on the CPU, which is quicker than a software adapter; the picture comes from the device.
+// weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX [ZOOM X Y [TOOL_PRESSED]]]
+// Draws one frame of a scene as the page would and writes it as a PPM file, to be looked at. The time is simulated
+// on the CPU, which is quicker than a software adapter; the picture comes from the device. In 3D, X and Y are the
+// camera's yaw and pitch in degrees.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "adapter.h"
-#include "core/sim.h"
 #include "image.h"
-#include "weir/weir_render.h"
+#include "render/renderer.h"
+#include "upload.h"
 #include "json/json_scene.h"
 
 static int complain(const char *what, const char *message)
@@ -31,25 +32,34 @@ static WeirScene *built_in_scene(void)
     return scene;
 }
 
-// Steps the scene on the CPU and hands the state to a simulation on the device.
-static WeirSim *make_state(const WeirScene *scene, WeirGpu *gpu, uint32_t steps)
+// The state of a simulation on the CPU, on the device: in a simulation of its own (mueller) or in buffers (wcsph).
+typedef struct Shown {
+    WeirSim *cpu, *sim;
+    WeirGpuParticles particles;
+} Shown;
+
+static void release(Shown *shown)
 {
-    WeirSim *cpu = weir_sim_create(scene, NULL);
-    WeirSim *sim = weir_sim_create(scene, &(WeirSimOptions){.backend = weir_gpu_backend(gpu)});
+    weir_upload_release(&shown->particles);
+    weir_sim_destroy(shown->sim);
+    weir_sim_destroy(shown->cpu);
+}
+
+static int make_state(Shown *shown, const WeirScene *scene, WeirGpu *gpu, double time)
+{
+    shown->cpu = weir_sim_create(scene, NULL);
     WeirState state;
-    WeirStatus status = weir_sim_status(cpu);
-    if (status == WEIR_OK) status = weir_sim_step(cpu, steps);
-    if (status == WEIR_OK) status = weir_sim_state(cpu, &state);
-    if (status != WEIR_OK) complain("simulation on the CPU", weir_sim_error(cpu));
-    if (status == WEIR_OK) {
-        status = weir_sim_set_state(sim, state.position, state.velocity);
-        if (status == WEIR_OK) status = weir_sim_wait(sim);
-        if (status != WEIR_OK) complain("simulation on the device", weir_sim_error(sim));
-    }
-    weir_sim_destroy(cpu);
-    if (status == WEIR_OK) return sim;
-    weir_sim_destroy(sim);
-    return NULL;
+    WeirStatus status = weir_sim_status(shown->cpu);
+    if (status == WEIR_OK) status = weir_sim_run_until(shown->cpu, time);
+    if (status == WEIR_OK) status = weir_sim_state(shown->cpu, &state);
+    if (status != WEIR_OK) return complain("simulation on the CPU", weir_sim_error(shown->cpu));
+    if (state.group)
+        return weir_upload(gpu, shown->cpu, &shown->particles) ? 0 : complain("device", "no memory");
+    shown->sim = weir_sim_create(scene, &(WeirSimOptions){.backend = weir_gpu_backend(gpu)});
+    status = weir_sim_set_state(shown->sim, state.position, state.velocity);
+    if (status == WEIR_OK) status = weir_sim_wait(shown->sim);
+    if (status != WEIR_OK) return complain("simulation on the device", weir_sim_error(shown->sim));
+    return weir_gpu_particles(shown->sim, &shown->particles) ? 0 : complain("device", "no particles");
 }
 
 static bool write_ppm(const char *path, const WeirImage *image)
@@ -62,32 +72,41 @@ static bool write_ppm(const char *path, const WeirImage *image)
     return fclose(file) == 0;
 }
 
+static float number(int count, char **values, int index, float otherwise)
+{
+    return index < count ? strtof(values[index], NULL) : otherwise;
+}
+
 static WeirView make_view(WeirSim *sim, uint32_t width, uint32_t height, int count, char **values)
 {
     const WeirConstants *constants = weir_sim_constants(sim);
-    float zoom = count > 3 ? strtof(values[3], NULL) : 1.0f;
-    float domain_width = constants->domain_max[0] - constants->domain_min[0];
-    float domain_height = constants->domain_max[1] - constants->domain_min[1];
+    float zoom = number(count, values, 3, 1.0f), size[3], diagonal = 0.0f;
     WeirView view = {
-        .color_by = count > 0 ? (WeirColorBy)atoi(values[0]) : WEIR_COLOR_SPEED,
-        .color_min = count > 1 ? strtof(values[1], NULL) : 0.0f,
-        .color_max = count > 2 ? strtof(values[2], NULL) : 5.0f,
-        .pixels_per_meter = 0.94f * zoom * fminf((float)width / domain_width, (float)height / domain_height),
+        .color_by = (WeirColorBy)number(count, values, 0, 0.0f),
+        .color_min = number(count, values, 1, 0.0f),
+        .color_max = number(count, values, 2, 5.0f),
         .particle_radius = 0.58f * weir_sim_parameters(sim)->particle_spacing,
+        .camera_yaw = number(count, values, 4, 32.0f) * 0.0174533f,
+        .camera_pitch = number(count, values, 5, 18.0f) * 0.0174533f,
+        .camera_field_of_view = 0.61f,
     };
-    for (int k = 0; k < 2; k++) {
-        view.center[k] = count > 5 ? strtof(values[4 + k], NULL)
-                                   : 0.5f * (constants->domain_min[k] + constants->domain_max[k]);
+    for (int k = 0; k < 3; k++) {
+        size[k] = constants->domain_max[k] - constants->domain_min[k];
+        view.camera_target[k] = 0.5f * (constants->domain_min[k] + constants->domain_max[k]);
+        diagonal = hypotf(diagonal, size[k]);
     }
+    view.camera_distance = 1.55f * diagonal / zoom;
+    view.pixels_per_meter = 0.94f * zoom * fminf((float)width / size[0], (float)height / size[1]);
+    for (int k = 0; k < 2; k++) view.center[k] = number(count, values, 4 + k, view.camera_target[k]);
     if (count > 6) {
-        view.tool_radius = 0.1f * domain_width;
-        view.tool_pressed = strtof(values[6], NULL);
-        memcpy(view.tool_position, view.center, sizeof view.center);
+        view.tool_radius = 0.1f * size[0];
+        view.tool_pressed = number(count, values, 6, 0.0f);
+        for (int k = 0; k < 3; k++) view.tool_position[k] = view.camera_target[k];
     }
     return view;
 }
 
-static int draw(WeirGpu *gpu, WeirSim *sim, int argc, char **argv)
+static int draw(WeirGpu *gpu, Shown *shown, int argc, char **argv)
 {
     uint32_t width = (uint32_t)atoi(argv[3]), height = (uint32_t)atoi(argv[4]);
     WeirImage image;
@@ -95,9 +114,10 @@ static int draw(WeirGpu *gpu, WeirSim *sim, int argc, char **argv)
         return complain("picture", "no device memory");
     }
     WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_BGRA8Unorm);
-    WeirView view = make_view(sim, width, height, argc - 6, argv + 6);
+    WeirView view = make_view(shown->cpu, width, height, argc - 6, argv + 6);
     int result = 0;
-    if (weir_renderer_draw(renderer, sim, &view, image.view, width, height) != WEIR_OK) {
+    if (weir_renderer_draw_particles(renderer, shown->cpu, &shown->particles, &view, image.view, width,
+                                     height) != WEIR_OK) {
         result = complain("drawing", weir_renderer_error(renderer));
     } else if (!weir_image_read(&image)) {
         result = complain("reading back", weir_gpu_error(gpu));
@@ -112,9 +132,8 @@ static int draw(WeirGpu *gpu, WeirSim *sim, int argc, char **argv)
 int main(int argc, char **argv)
 {
     if (argc < 6) {
-        return complain("usage",
-                        "weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT STEPS [COLOR_BY MIN MAX "
-                        "[ZOOM X Y [TOOL_PRESSED]]]");
+        return complain("usage", "weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX "
+                                 "[ZOOM X Y [TOOL_PRESSED]]]");
     }
     WeirScene *scene = NULL;
     char message[512] = "no memory";
@@ -124,9 +143,10 @@ int main(int argc, char **argv)
         weir_json_load_scene(argv[1], &scene, message, sizeof message);
     if (!scene) return complain("scene", message);
     WeirGpu *gpu = weir_test_gpu(NULL);
-    WeirSim *sim = make_state(scene, gpu, (uint32_t)atoi(argv[5]));
-    int result = sim ? draw(gpu, sim, argc, argv) : 1;
-    weir_sim_destroy(sim);
+    Shown shown = {.cpu = NULL};
+    int result = make_state(&shown, scene, gpu, strtod(argv[5], NULL));
+    if (result == 0) result = draw(gpu, &shown, argc, argv);
+    release(&shown);
     weir_gpu_destroy(gpu);
     weir_scene_destroy(scene);
     return result;

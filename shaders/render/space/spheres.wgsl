@@ -1,0 +1,92 @@
+// spheres: every particle of fluid, walls and bodies a shaded sphere, cut exactly by its ray in perspective.
+// in:  frame, color_maps, particles, shadow map
+// out: sRGB, alpha the share of the pixel that is covered; depth
+
+@group(2) @binding(0) var shadow_map: texture_depth_2d;
+
+struct Sphere {
+    @builtin(position) place: vec4f,
+    @location(0) ray: vec3f,                          // view space, through the fragment
+    @location(1) @interpolate(flat) center: vec4f,    // view space; radius
+    @location(2) @interpolate(flat) color: vec4f,     // linear; how glossy
+    @location(3) @interpolate(flat) light: f32,       // share of the light that arrives
+}
+
+// Light that arrives at a particle through the fluid between it and the light.
+fn arriving_light(point: vec3f, radius: f32) -> f32 {
+    let light = to_light(point);
+    let texel = light_texel(light);
+    var sum = 0.0;
+    for (var k = 0u; k < 5u; k++) {
+        let step = select(vec2f(0.0), (vec2f(f32(k & 1u), f32(k >> 1u & 1u)) - 0.5) * 5.0, k < 4u);
+        let at = clamp(texel + step, vec2f(0.0), vec2f(shadow_size - 1.0));
+        let first = textureLoad(shadow_map, vec2u(at), 0);
+        sum += exp(-frame.absorption * max((light.z - first) * frame.light_range - 1.5 * radius, 0.0));
+    }
+    return mix(0.30, 1.0, sum / 5.0);
+}
+
+@vertex
+fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Sphere {
+    var sphere: Sphere;
+    sphere.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
+    let kind = particle_kind(particle);
+    if kind == HIDDEN { return sphere; }
+    let point = particle_position(particle);
+    let center = to_view(point);
+    let size = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
+    if center.z - size < frame.near { return sphere; }
+    let distance = length(center);
+    let pixel = frame.pixel_size * distance;
+    let radius = max(size, 0.55 * pixel);
+    // A square across the line of sight that holds the sphere's outline and a pixel more.
+    let toward = center / distance;
+    let across = normalize(cross(toward, vec3f(0.0, 1.0, 0.0)));
+    let reach = radius * inverseSqrt(max(1.0 - radius * radius / (distance * distance), 1e-3)) + pixel;
+    let corner = square_corner(vertex) * reach;
+    sphere.ray = center + across * corner.x + cross(across, toward) * corner.y;
+    sphere.place = project(sphere.ray);
+    sphere.center = vec4f(center, radius);
+    sphere.color = vec4f(to_linear(particle_color(particle, kind)), select(0.25, 1.0, kind == FLUID));
+    sphere.light = arriving_light(point, size);
+    return sphere;
+}
+
+struct Seen {
+    @location(0) color: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
+
+// Linear light of a surface. `view` points to the eye.
+fn shade(color: vec3f, gloss: f32, normal: vec3f, view: vec3f, light: f32) -> vec3f {
+    let facing = dot(normal, sun);
+    let wrapped = clamp(0.62 * facing + 0.38, 0.0, 1.0);
+    let ambient = mix(vec3f(0.16, 0.20, 0.28), vec3f(0.62, 0.70, 0.80), 0.5 * normal.y + 0.5);
+    var seen = color * (0.62 * ambient * mix(0.55, 1.0, light) + vec3f(1.02, 0.98, 0.92) * (wrapped * light));
+    let halfway = normalize(sun + view);
+    let shine = pow(max(dot(normal, halfway), 0.0), 70.0);
+    let fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(normal, view), 0.0, 1.0), 5.0);
+    seen += gloss * (0.55 * shine * light + 0.35 * fresnel * surroundings(reflect(-view, normal)) * mix(0.4, 1.0, light));
+    return seen;
+}
+
+@fragment
+fn spheres_fragment(sphere: Sphere) -> Seen {
+    let center = sphere.center.xyz;
+    let radius = sphere.center.w;
+    let ray = normalize(sphere.ray);
+    let along = dot(ray, center);
+    let miss = length(center - ray * along); // of the ray from the centre
+    let pixel = frame.pixel_size * along;
+    let coverage = clamp((radius - miss) / pixel + 0.5, 0.0, 1.0);
+    if coverage <= 0.0 { discard; }
+    let place = ray * (along - sqrt(max(radius * radius - miss * miss, 0.0)));
+    let normal = normalize(to_world(place - center));
+    var seen: Seen;
+    let color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), sphere.light);
+    seen.color = vec4f(to_srgb(color), coverage);
+    seen.depth = frame.near / place.z;
+    return seen;
+}

@@ -1,0 +1,40 @@
+// The effects of a frame and their pipelines.
+#pragma once
+
+#include "gpu/gpu.h"
+
+// In the order in which they are drawn; one WGSL file each. First those of a picture in 2D, then those in 3D.
+typedef enum WeirEffectKind {
+    WEIR_EFFECT_BACKGROUND,
+    WEIR_EFFECT_WATER,
+    WEIR_EFFECT_PARTICLES,
+    WEIR_EFFECT_OVERLAY,
+    WEIR_EFFECT_SHADOW,
+    WEIR_EFFECT_BACKDROP,
+    WEIR_EFFECT_GROUND,
+    WEIR_EFFECT_SPHERES,
+    WEIR_EFFECT_EDGES,
+    WEIR_EFFECT_OCCLUSION,
+    WEIR_EFFECT_COMPOSE,
+    WEIR_EFFECTS, // how many
+} WeirEffectKind;
+
+enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of the scene in 3D
+#define WEIR_SCENE_FORMAT     WGPUTextureFormat_RGBA8Unorm   // its colours, sRGB
+#define WEIR_DEPTH_FORMAT     WGPUTextureFormat_Depth32Float // its depth, and the shadow map's
+#define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
+
+// What bind group 2 holds: nothing, or textures that effects in 3D read.
+typedef enum WeirTextures {
+    WEIR_TEXTURES_NONE,
+    WEIR_TEXTURES_SHADOW,    // the shadow map
+    WEIR_TEXTURES_OCCLUSION, // the scene's depth
+    WEIR_TEXTURES_COMPOSE,   // depth, colour, occlusion
+    WEIR_TEXTURE_GROUPS,
+} WeirTextures;
+
+WeirTextures weir_effect_textures(WeirEffectKind kind);
+// Builds the pipeline of one effect; `target` is the format of the picture in the end. NULL if memory runs out. Faults
+// of the shader go to the device.
+WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WGPUDevice device,
+                                      WGPUPipelineLayout layout, WGPUTextureFormat target);

@@ -1,0 +1,206 @@
+#include "render/frame.h"
+
+#include <math.h>
+
+#include "core/scene.h"
+#include "render/camera.h"
+
+// Towards the light, a unit vector; spheres.wgsl: sun.
+static const float light_direction[3] = {-0.3496f, 0.8591f, 0.3737f};
+
+typedef struct Check {
+    const char *name;
+    float value;
+    bool positive; // else any finite number
+} Check;
+
+static WeirStatus check_numbers(const Check *checks, size_t count, WeirMessage *message)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (isfinite(checks[k].value) && (!checks[k].positive || checks[k].value > 0.0f)) continue;
+        return weir_fail(message, WEIR_ERROR_INPUT, "%s is %g; it must be a finite number%s.", checks[k].name,
+                         (double)checks[k].value, checks[k].positive ? " above 0" : "");
+    }
+    return WEIR_OK;
+}
+
+static WeirStatus check_camera(const WeirView *view, WeirMessage *message)
+{
+    const Check checks[] = {
+        {"camera_target[0]", view->camera_target[0], false},
+        {"camera_target[1]", view->camera_target[1], false},
+        {"camera_target[2]", view->camera_target[2], false},
+        {"camera_yaw", view->camera_yaw, false},
+        {"camera_distance", view->camera_distance, true},
+        {"camera_shift[0]", view->camera_shift[0], false},
+        {"camera_shift[1]", view->camera_shift[1], false},
+    };
+    if (!(fabsf(view->camera_pitch) <= 1.571f)) {
+        return weir_fail(message, WEIR_ERROR_INPUT, "camera_pitch is %g; it must be between -1.57 and 1.57.",
+                         (double)view->camera_pitch);
+    }
+    if (!(view->camera_field_of_view >= 0.01f && view->camera_field_of_view <= 3.0f)) {
+        return weir_fail(message, WEIR_ERROR_INPUT,
+                         "camera_field_of_view is %g; it must be between 0.01 and 3 rad.",
+                         (double)view->camera_field_of_view);
+    }
+    return check_numbers(checks, sizeof checks / sizeof *checks, message);
+}
+
+WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,
+                            uint32_t height, WeirMessage *message)
+{
+    if (!view || !target) return weir_fail(message, WEIR_ERROR_INPUT, "A frame needs a view and a target.");
+    if (width == 0 || height == 0) {
+        return weir_fail(message, WEIR_ERROR_INPUT, "The target is %u x %u pixels; both must be at least 1.",
+                         width, height);
+    }
+    if ((uint32_t)view->color_by >= WEIR_COLOR_MAPS) {
+        return weir_fail(message, WEIR_ERROR_INPUT, "color_by is %u; allowed are 0 to %d.",
+                         (unsigned)view->color_by, WEIR_COLOR_MAPS - 1);
+    }
+    const Check shared[] = {
+        {"color_min", view->color_min, false},
+        {"color_max", view->color_max, false},
+        {"particle_radius", view->particle_radius, true},
+        {"tool_position[0]", view->tool_position[0], false},
+        {"tool_position[1]", view->tool_position[1], false},
+        {"tool_position[2]", view->tool_position[2], false},
+        {"tool_radius", view->tool_radius, false},
+        {"tool_pressed", view->tool_pressed, false},
+    };
+    WeirStatus status = check_numbers(shared, sizeof shared / sizeof *shared, message);
+    if (status != WEIR_OK) return status;
+    if (dimension == 3) return check_camera(view, message);
+    const Check flat[] = {
+        {"center[0]", view->center[0], false},
+        {"center[1]", view->center[1], false},
+        {"pixels_per_meter", view->pixels_per_meter, true},
+    };
+    return check_numbers(flat, sizeof flat / sizeof *flat, message);
+}
+
+// Which walls and bodies are not drawn: the domain's own sides, which its outline shows, and in 3D walls around the
+// fluid, which would hide it.
+static void fill_solids(WeirFrame *frame, const WeirScene *scene)
+{
+    bool closed = false;
+    for (uint32_t axis = 0; axis < scene->dimension; axis++) {
+        closed |= !scene->periodic[axis] && !(scene->open[axis][0] && scene->open[axis][1]);
+    }
+    uint32_t first_wall = closed ? 1 : 0;
+    if (closed) frame->hidden[0] |= 1u;
+    for (uint32_t wall = 0; scene->dimension == 3 && wall < scene->wall_count; wall++) {
+        uint32_t solid = first_wall + wall;
+        if (scene->wall[wall].inside && solid < 128) frame->hidden[solid / 32] |= 1u << solid % 32;
+    }
+    frame->first_body = first_wall + scene->wall_count;
+}
+
+static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParameters *parameters, bool wcsph)
+{
+    float scale = view->pixels_per_meter;
+    frame->pixels_per_meter = scale;
+    frame->particle_radius = view->particle_radius * scale;
+    frame->water_radius = fmaxf(1.5f * parameters->particle_spacing * scale, 1.5f);
+    frame->tool_radius = fmaxf(view->tool_radius, 0.0f) * scale;
+    // mueller's walls hold the particles' centres; wcsph's are where the lattice's half spacing ends.
+    frame->border = frame->particle_radius;
+    if (wcsph)
+        frame->border = fmaxf(frame->border - 0.5f * parameters->particle_spacing * scale, 0.0f) + 0.6f;
+    for (int k = 0; k < 2; k++) frame->center[k] = view->center[k];
+}
+
+// The shadow map holds the whole domain, whichever way it lies.
+static void fill_light(WeirFrame *frame)
+{
+    const float *toward = light_direction;
+    float right[3] = {toward[2], 0.0f, -toward[0]};
+    float length = sqrtf(weir_dot3(right, right));
+    for (int k = 0; k < 3; k++) right[k] /= length;
+    const float up[3] = {toward[1] * right[2] - toward[2] * right[1],
+                         toward[2] * right[0] - toward[0] * right[2],
+                         toward[0] * right[1] - toward[1] * right[0]};
+    const float away[3] = {-toward[0], -toward[1], -toward[2]};
+    const float *axes[3] = {right, up, away};
+    float center[3], half[3];
+    for (int k = 0; k < 3; k++) {
+        center[k] = 0.5f * (frame->domain_min[k] + frame->domain_max[k]);
+        half[k] = 0.5f * (frame->domain_max[k] - frame->domain_min[k]) + 2.0f * frame->sphere_radius;
+    }
+    for (int row = 0; row < 3; row++) {
+        float extent = 0.0f;
+        for (int k = 0; k < 3; k++) extent += fabsf(axes[row][k]) * half[k];
+        float scale = row == 2 ? 0.5f / extent : 1.0f / extent;
+        for (int k = 0; k < 3; k++) frame->light_rows[row][k] = scale * axes[row][k];
+        frame->light_rows[row][3] = (row == 2 ? 0.5f : 0.0f) - scale * weir_dot3(axes[row], center);
+        if (row == 2) frame->light_range = 2.0f * extent;
+    }
+}
+
+static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParameters *parameters,
+                       uint32_t width, uint32_t height)
+{
+    WeirCameraAxes axes = weir_camera_axes(view, width, height);
+    for (int k = 0; k < 3; k++) {
+        frame->eye[k] = axes.eye[k];
+        frame->right[k] = axes.right[k];
+        frame->up[k] = axes.up[k];
+        frame->ahead[k] = axes.ahead[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        frame->projection[k] = axes.focal[k];
+        frame->projection[2 + k] = axes.shift[k];
+    }
+    frame->near = axes.near;
+    frame->pixel_size = 2.0f / (axes.focal[1] * (float)height);
+    frame->tool_radius = fmaxf(view->tool_radius, 0.0f);
+    frame->sphere_radius = view->particle_radius;
+    // A little larger than half a spacing, so that walls and bodies look closed.
+    frame->solid_radius = 0.68f * parameters->particle_spacing;
+    float size[3];
+    for (int k = 0; k < 3; k++) size[k] = frame->domain_max[k] - frame->domain_min[k];
+    frame->absorption = 2.6f / size[1];
+    frame->occlusion_radius = fmaxf(0.045f * cbrtf(size[0] * size[1] * size[2]), 3.0f * frame->sphere_radius);
+    fill_light(frame);
+}
+
+static bool target_encodes(WGPUTextureFormat format)
+{
+    return format == WGPUTextureFormat_BGRA8UnormSrgb || format == WGPUTextureFormat_RGBA8UnormSrgb;
+}
+
+void weir_frame_fill(WeirFrame *frame, const WeirSim *sim, const WeirView *view, uint32_t width,
+                     uint32_t height, WGPUTextureFormat format)
+{
+    const WeirConstants *constants = weir_sim_constants(sim);
+    const WeirParameters *parameters = weir_sim_parameters(sim);
+    const WeirScene *scene = weir_sim_scene(sim);
+    float range = view->color_max - view->color_min;
+    *frame = (WeirFrame){
+        .size = {(float)width, (float)height},
+        .tool_pressed = fminf(fmaxf(view->tool_pressed, 0.0f), 1.0f),
+        .color_min = view->color_min,
+        .color_scale = range != 0.0f ? 1.0f / range : 0.0f,
+        .color_by = (uint32_t)view->color_by,
+        .linear_target = target_encodes(format),
+        .tait = parameters->equation_of_state == WEIR_EQUATION_TAIT,
+        .line_scale = fminf(fmaxf((float)(width < height ? width : height) / 1000.0f, 1.0f), 4.0f),
+        .rest_density = parameters->rest_density,
+        .sound_speed = constants->sound_speed,
+        .background_pressure = parameters->background_pressure,
+        .quantum = constants->quantum,
+    };
+    for (int k = 0; k < 3; k++) {
+        frame->domain_min[k] = constants->domain_min[k];
+        frame->domain_max[k] = constants->domain_max[k];
+        frame->tool_position[k] = view->tool_position[k];
+        frame->origin[k] = constants->origin[k];
+    }
+    bool wcsph = scene->method == WEIR_METHOD_WCSPH;
+    if (wcsph) fill_solids(frame, scene);
+    if (scene->dimension == 3)
+        fill_space(frame, view, parameters, width, height);
+    else
+        fill_flat(frame, view, parameters, wcsph);
+}

@@ -1,0 +1,40 @@
+// What one frame shows, as the shaders take it, made from a view and a simulation.
+#pragma once
+
+#include <stddef.h>
+
+#include "core/sim.h"
+#include "gpu/gpu.h"
+#include "render/color_map.h"
+
+enum { WEIR_SHADOW_SIZE = 1024 }; // texels of the shadow map's side; space.wgsl: shadow_size
+
+// Copied byte by byte to `struct Frame` of shaders/render/frame.wgsl, which says what each field means.
+typedef struct WeirFrame {
+    float eye[4], right[4], up[4], ahead[4];
+    float projection[4];
+    float light_rows[3][4];
+    float domain_min[4], domain_max[4];
+    float tool_position[4];
+    float origin[4];
+    uint32_t hidden[4];
+    float size[2];
+    float center[2];
+    float tool_radius, tool_pressed, color_min, color_scale;
+    uint32_t color_by, linear_target, first_body, tait;
+    float pixels_per_meter, particle_radius, water_radius, line_scale;
+    float border, rest_density, sound_speed, background_pressure;
+    float quantum, sphere_radius, solid_radius, near;
+    float pixel_size, light_range, absorption, occlusion_radius;
+} WeirFrame;
+_Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
+_Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");
+_Static_assert(offsetof(WeirFrame, tool_radius) == 224, "frame.wgsl: tool_radius");
+_Static_assert(offsetof(WeirFrame, border) == 272, "frame.wgsl: border");
+_Static_assert(sizeof(WeirFrame) == 320, "frame.wgsl: size, a multiple of 16");
+
+// Refuses what cannot be drawn and says why.
+WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,
+                            uint32_t height, WeirMessage *message);
+void weir_frame_fill(WeirFrame *frame, const WeirSim *sim, const WeirView *view, uint32_t width,
+                     uint32_t height, WGPUTextureFormat format);

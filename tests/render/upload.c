@@ -1,0 +1,56 @@
+#include "upload.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static WGPUBuffer create_buffer(WeirGpu *gpu, const void *data, size_t size)
+{
+    WGPUBuffer buffer = wgpuDeviceCreateBuffer(
+        weir_gpu_wgpu_device(gpu),
+        &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage | WGPUBufferUsage_CopyDst, .size = size});
+    if (buffer) wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(gpu), buffer, 0, data, size);
+    return buffer;
+}
+
+bool weir_upload_arrays(WeirGpu *gpu, int32_t (*coordinate)[4], float (*motion)[4], uint32_t count,
+                        WeirGpuParticles *particles)
+{
+    *particles = (WeirGpuParticles){
+        .gpu = gpu,
+        .method = WEIR_METHOD_WCSPH,
+        .coordinate = create_buffer(gpu, coordinate, count * sizeof *coordinate),
+        .motion = create_buffer(gpu, motion, count * sizeof *motion),
+        .count = count,
+    };
+    return particles->coordinate && particles->motion;
+}
+
+bool weir_upload(WeirGpu *gpu, WeirSim *cpu, WeirGpuParticles *particles)
+{
+    WeirState state;
+    if (weir_sim_state(cpu, &state) != WEIR_OK) return false;
+    const WeirConstants *constants = weir_sim_constants(cpu);
+    int32_t(*coordinate)[4] = calloc(state.count, sizeof *coordinate);
+    float(*motion)[4] = calloc(state.count, sizeof *motion);
+    bool good = coordinate && motion;
+    for (uint32_t i = 0; good && i < state.count; i++) {
+        for (uint32_t k = 0; k < state.dimension; k++) {
+            double place = (double)state.position[state.dimension * i + k] - (double)constants->origin[k];
+            coordinate[i][k] = (int32_t)lround(place / (double)constants->quantum);
+            motion[i][k] = state.velocity[state.dimension * i + k];
+        }
+        coordinate[i][3] = state.group ? (int32_t)state.group[i] : 0;
+        motion[i][3] = state.density[i];
+    }
+    good = good && weir_upload_arrays(gpu, coordinate, motion, state.count, particles);
+    free(coordinate);
+    free(motion);
+    return good;
+}
+
+void weir_upload_release(WeirGpuParticles *particles)
+{
+    if (particles->coordinate) wgpuBufferRelease(particles->coordinate);
+    if (particles->motion) wgpuBufferRelease(particles->motion);
+    particles->coordinate = particles->motion = NULL;
+}
