@@ -222,6 +222,7 @@ static void choose_first_step(WeirWcsph *solver)
 static float next_step(const WeirWcsph *solver, double until)
 {
     double left = until - solver->clock.time, dt = solver->clock.time_step;
+    if (isinf(until)) return (float)dt;
     if (left <= 1e-9 * fmax(until, 1e-3)) return 0.0f;
     if (dt >= left) return (float)left;
     return (float)(dt > 0.5 * left ? 0.5 * left : dt);
@@ -254,7 +255,8 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
         ++solver->clock.steps;
         // A step that was shortened to end there ends there exactly.
         double time = solver->clock.time + solver->dt;
-        solver->clock.time = fabs(until - time) <= 1e-6 * solver->dt ? until : time;
+        bool ends = isfinite(until) && fabs(until - time) <= 1e-6 * solver->dt;
+        solver->clock.time = ends ? until : time;
         if (solver->bad_in_step > 0)
             find_first_bad(solver);
         else if (solver->clock.steps % STEPS_PER_SNAPSHOT == 0)
