@@ -22,8 +22,10 @@ static WeirScene *block(uint32_t dimension)
     }
     CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.open", dimension == 3 ? "-x +x -y +y -z +z" : "-x +x -y +y"),
-                WEIR_OK);
+    CHECK_SCENE(
+        scene,
+        weir_scene_set_string(scene, "domain.open", dimension == 3 ? "-x +x -y +y -z +z" : "-x +x -y +y"),
+        WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_domain(scene, low, high), WEIR_OK);
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = -side;
@@ -80,7 +82,8 @@ static bool inside(WeirSim *sim, const float *position)
 static void check_acceleration(WeirSim *sim, const double expected[3], double tolerance)
 {
     uint32_t dimension = weir_sim_dimension(sim), count = weir_sim_particle_count(sim), found = 0;
-    float *position = weir_test_read(sim, WEIR_FIELD_POSITION), *a = weir_test_read(sim, WEIR_FIELD_ACCELERATION);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+          *a = weir_test_read(sim, WEIR_FIELD_ACCELERATION);
     for (uint32_t i = 0; i < count; ++i) {
         if (!inside(sim, position + dimension * i)) continue;
         for (uint32_t axis = 0; axis < dimension; ++axis)
@@ -152,7 +155,8 @@ static void check_rate(WeirSim *sim, Field *field, double time_step, double expe
 {
     uint32_t dimension = weir_sim_dimension(sim), count = weir_sim_particle_count(sim), found = 0;
     weir_test_step(sim, 1);
-    float *position = weir_test_read(sim, WEIR_FIELD_POSITION), *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+          *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
     for (uint32_t i = 0; i < count; ++i) {
         if (!inside(sim, position + dimension * i)) continue;
         double place[3] = {0, 0, 0};
@@ -222,7 +226,8 @@ static void hydrostatic_density_does_not_diffuse(const WeirBackend *backend)
     WeirSim *sim = start(scene, backend, weight_of_the_fluid);
     uint32_t count = weir_sim_particle_count(sim);
     weir_test_step(sim, 1);
-    float *position = weir_test_read(sim, WEIR_FIELD_POSITION), *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+          *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
     for (uint32_t i = 0; i < count; ++i) {
         if (!inside(sim, position + 2 * i)) continue;
         float before, velocity[3];
@@ -263,7 +268,8 @@ static void momentum_is_kept_to_round_off(const WeirBackend *backend)
         assert_int_equal(after.step, 20);
         assert_true(after.kinetic_energy != before.kinetic_energy);
         double scale = 1000 * 0.64 * 0.3; // mass of the block times the largest speed
-        for (int axis = 0; axis < 2; ++axis) CHECK_NEAR(after.momentum[axis], before.momentum[axis], 1e-6 * scale);
+        for (int axis = 0; axis < 2; ++axis)
+            CHECK_NEAR(after.momentum[axis], before.momentum[axis], 1e-6 * scale);
         weir_sim_destroy(sim);
         weir_scene_destroy(scene);
     }
