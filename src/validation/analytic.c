@@ -129,17 +129,3 @@ double weir_solitary_surface(double depth, double height, double distance)
     double s = 1.0 / cosh(solitary_kappa(depth, height) * distance);
     return height * s * s;
 }
-
-// The plate moves with the water's mean speed at the plate: X' = c eta / (h + eta) at x = X, which has the solution
-// X = a / (kappa h) (tanh(theta) + 1), theta = kappa (c (t - t0) - X); solved for X by Newton's method.
-double weir_solitary_piston(double gravity, double depth, double height, double crest_time, double t)
-{
-    double kappa = solitary_kappa(depth, height), c = weir_solitary_speed(gravity, depth, height);
-    double stroke = height / (kappa * depth), x = 0.0;
-    for (int k = 0; k < 60; ++k) {
-        double theta = kappa * (c * (t - crest_time) - x), s = 1.0 / cosh(theta);
-        double error = x - stroke * (tanh(theta) + 1.0);
-        x -= error / (1.0 + stroke * kappa * s * s);
-    }
-    return x;
-}

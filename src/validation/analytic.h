@@ -36,6 +36,3 @@ double weir_rotating_square_pressure(double rho, double omega, double length, do
 // kappa = sqrt(3 a / (4 h^3)) (Boussinesq).
 double weir_solitary_speed(double gravity, double depth, double height);
 double weir_solitary_surface(double depth, double height, double distance);
-// Displacement at time t of a piston that makes it (D. G. Goring, thesis, Caltech 1979), from rest; the crest leaves the
-// piston's start at `crest_time`.
-double weir_solitary_piston(double gravity, double depth, double height, double crest_time, double t);

@@ -7,11 +7,13 @@
 #include <string.h>
 
 static const WeirCase *const cases[] = {
-    &weir_case_hydrostatic_2d,  &weir_case_hydrostatic_3d,  &weir_case_hydrostatic_shapes,
-    &weir_case_settled_tank,    &weir_case_taylor_green,    &weir_case_poiseuille,
-    &weir_case_couette,         &weir_case_elliptical_drop, &weir_case_oscillating_drop,
-    &weir_case_rotating_square, &weir_case_free_drop,       &weir_case_dam_break,
-    &weir_case_column_collapse,
+    &weir_case_kernels,          &weir_case_lattice_density,    &weir_case_hydrostatic_2d,
+    &weir_case_hydrostatic_3d,   &weir_case_hydrostatic_shapes, &weir_case_settled_tank,
+    &weir_case_floating_box,     &weir_case_taylor_green,       &weir_case_poiseuille,
+    &weir_case_couette,          &weir_case_standing_wave,      &weir_case_elliptical_drop,
+    &weir_case_oscillating_drop, &weir_case_rotating_square,    &weir_case_free_drop,
+    &weir_case_dam_break,        &weir_case_column_collapse,    &weir_case_kleefsman,
+    &weir_case_lid_cavity,       &weir_case_solitary_wave,
 };
 enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
 
