@@ -11,6 +11,7 @@
 enum { DEFAULT_MAX_STEPS = 64 };
 // Steps that weir_sim_run_until() queues between two looks at clock and health.
 static const double MOST_QUEUED = 100.0;
+static const double largest_mach_number = 0.1, largest_density_error = 0.03;
 static const double default_max_lag = 0.1; // s: a frame later than this is a stall, not a slow frame
 
 struct WeirSim {
@@ -32,6 +33,7 @@ struct WeirSim {
     double max_lag;
     double owed; // simulated seconds that the accumulator holds
     bool state_is_current;
+    bool warned_of_compression; // since the last reset
     WeirState state;
 };
 
@@ -274,6 +276,19 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     return status;
 }
 
+// Weakly compressible means a Mach number below 0.1 and densities within 1 %; well above that the flow is another one.
+static void warn_of_compression(WeirSim *sim)
+{
+    double mach = sim->health.max_speed / sim->constants.sound_speed, error = sim->health.max_density_error;
+    if (sim->warned_of_compression || !(mach > largest_mach_number || error > largest_density_error)) return;
+    sim->warned_of_compression = true;
+    weir_fail(&sim->warning, WEIR_OK,
+              "step %llu: the fluid is too fast or too compressed for its speed of sound: Mach number %.2g (0.1 is the most "
+              "for nearly incompressible flow), density error %.2g %% (3 %%). Raise expected_speed above %.3g m/s",
+              (unsigned long long)sim->steps, mach, 100.0 * error,
+              fmax(sim->health.max_speed, 0.1 * sim->constants.sound_speed));
+}
+
 static WeirStatus blown_up(WeirSim *sim)
 {
     const WeirHealth *health = &sim->health;
@@ -300,6 +315,7 @@ WeirStatus weir_sim_poll(WeirSim *sim)
     if (health.has_clock) {
         sim->steps = sim->steps_given + health.steps;
         sim->time = sim->time_given + health.time;
+        if (health.bad_particles == 0) warn_of_compression(sim);
     }
     if (health.bad_particles == 0) return WEIR_OK;
     if (health.has_clock) return blown_up(sim);
@@ -346,6 +362,8 @@ WeirStatus weir_sim_reset(WeirSim *sim)
     }
     sim->steps = 0;
     sim->time = sim->owed = 0.0;
+    sim->warned_of_compression = false;
+    sim->warning = sim->scene->warning;
     status = replace_state(sim, &world.particles);
     weir_world_free(&world);
     return status;
