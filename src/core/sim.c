@@ -282,11 +282,13 @@ static void warn_of_compression(WeirSim *sim)
     double mach = sim->health.max_speed / sim->constants.sound_speed, error = sim->health.max_density_error;
     if (sim->warned_of_compression || !(mach > largest_mach_number || error > largest_density_error)) return;
     sim->warned_of_compression = true;
-    weir_fail(&sim->warning, WEIR_OK,
-              "step %llu: the fluid is too fast or too compressed for its speed of sound: Mach number %.2g (0.1 is the most "
-              "for nearly incompressible flow), density error %.2g %% (3 %%). Raise expected_speed above %.3g m/s",
-              (unsigned long long)sim->steps, mach, 100.0 * error,
-              fmax(sim->health.max_speed, 0.1 * sim->constants.sound_speed));
+    weir_fail(
+        &sim->warning, WEIR_OK,
+        "step %llu: the fluid is too fast or too compressed for its speed of sound: Mach number %.2g (0.1 is "
+        "the most "
+        "for nearly incompressible flow), density error %.2g %% (3 %%). Raise expected_speed above %.3g m/s",
+        (unsigned long long)sim->steps, mach, 100.0 * error,
+        fmax(sim->health.max_speed, 0.1 * sim->constants.sound_speed));
 }
 
 static WeirStatus blown_up(WeirSim *sim)

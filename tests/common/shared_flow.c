@@ -12,14 +12,16 @@ static WeirScene *tank(uint32_t dimension, double width, double height, double s
     WeirScene *scene = weir_scene_create();
     CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){width, height, height}), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){width, height, height}),
+                WEIR_OK);
     weir_test_set(scene, "particle_spacing", spacing);
     return scene;
 }
 
 static void add_box(WeirScene *scene, double x0, double x1, double height)
 {
-    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){x0, 0, 0}, (double[]){x1, height, height}, NULL), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){x0, 0, 0}, (double[]){x1, height, height}, NULL),
+                WEIR_OK);
 }
 
 // A column that collapses at the near end of a tank and its mirror image at the far end, 100 m away, 1 cm apart: the same
@@ -50,7 +52,8 @@ static void periodic_fluid_moves_as_a_whole(const WeirBackend *backend)
 {
     for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
         WeirScene *scene = tank(dimension, 1, 1, 0.1);
-        CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", dimension == 3 ? "xyz" : "xy"), WEIR_OK);
+        CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", dimension == 3 ? "xyz" : "xy"),
+                    WEIR_OK);
         weir_test_gravity(scene, 0, 0);
         weir_test_set(scene, "expected_speed", 1);
         const double v[3] = {0.5, -0.7, 0.3};
@@ -58,7 +61,8 @@ static void periodic_fluid_moves_as_a_whole(const WeirBackend *backend)
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         CHECK_SIM(sim, weir_sim_run_until(sim, 1.5), WEIR_OK);
         CHECK_NEAR(weir_sim_time(sim), 1.5, 1e-9);
-        float *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY), *position = weir_test_read(sim, WEIR_FIELD_POSITION);
+        float *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY),
+              *position = weir_test_read(sim, WEIR_FIELD_POSITION);
         for (uint32_t i = 0; i < weir_sim_particle_count(sim); ++i) {
             for (uint32_t axis = 0; axis < dimension; ++axis)
                 CHECK_NEAR(velocity[dimension * i + axis], v[axis], 2e-5);
@@ -108,7 +112,8 @@ static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *b
     CHECK_CONTAINS(weir_sim_error(sim), "particle ");
     CHECK_CONTAINS(weir_sim_error(sim), "near (");
     CHECK_CONTAINS(weir_sim_error(sim), "stepping adaptive");
-    float *position = weir_test_read(sim, WEIR_FIELD_POSITION), *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+          *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
     for (uint32_t k = 0; k < 2 * weir_sim_fluid_slots(sim); ++k) {
         assert_true(isfinite(velocity[k]) && fabsf(velocity[k]) < weir_sim_clock(sim).sound_speed);
         assert_true(position[k] > -0.1f && position[k] < 0.5f);
@@ -145,7 +150,8 @@ static void walls_hold_a_splash(const WeirBackend *backend)
 {
     for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
         WeirScene *scene = tank(dimension, 0.4, 0.4, dimension == 3 ? 0.04 : 0.02);
-        CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0.16, 0}, (double[]){0.2, 0.4, 0.4}, NULL), WEIR_OK);
+        CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0.16, 0}, (double[]){0.2, 0.4, 0.4}, NULL),
+                    WEIR_OK);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         uint32_t slots = weir_sim_fluid_slots(sim);
         for (int n = 1; n <= 4; ++n) {
