@@ -61,3 +61,10 @@ fn acceleration_of(sums: PairSums, own: Own) -> vec2f {
 
 // m^2: keeps r = 0 from a division by zero.
 const TINY = 1e-24;
+
+// What integrate found, and the number of the step that runs now.
+struct Health {
+    bad_particles: atomic<u32>,
+    first_bad_step: atomic<u32>,
+    step: u32,
+}

@@ -1,10 +1,3 @@
 // What every pass may read. The C side puts the two structs, made from params.inl and constants.inl, before this.
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 @group(0) @binding(1) var<uniform> constants: Constants;
-
-// What integrate found, and the number of the step that runs now.
-struct Health {
-    bad_particles: atomic<u32>,
-    first_bad_step: atomic<u32>,
-    step: u32,
-}

@@ -1,12 +1,11 @@
 // Density rho_i = sum_j m W(|x_i - x_j|), the particle itself included, and pressure.
 //
 // in:  sorted_position, sorted_velocity, cell_start
-// out: flow; cell_count and the heads of cell_link are emptied for the next count
+// out: flow; the heads of cell_link are emptied for the next count
 @group(0) @binding(BINDING_sorted_position) var<storage, read> sorted_position: array<vec2f>;
 @group(0) @binding(BINDING_sorted_velocity) var<storage, read> sorted_velocity: array<vec2f>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_flow) var<storage, read_write> flow: array<vec4f>;
-@group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -14,7 +13,6 @@ fn density(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
            @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, workgroups, local);
     for (var cell = i; cell < constants.cell_count; cell += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
-        cell_count[cell] = 0u;
         cell_link[cell] = 0u;
     }
     if i >= constants.particle_count {

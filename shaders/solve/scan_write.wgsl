@@ -2,8 +2,8 @@
 // workgroup adds up the blocks before its own, so no third dispatch is needed.
 //
 // in:  cell_count, block_sum
-// out: cell_start; beyond the last cell it holds the particle count
-@group(0) @binding(BINDING_cell_count) var<storage, read> cell_count: array<vec4u>;
+// out: cell_start; beyond the last cell it holds the particle count. cell_count is emptied for the next count
+@group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<vec4u>;
 @group(0) @binding(BINDING_block_sum) var<storage, read> block_sum: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read_write> cell_start: array<vec4u>;
 
@@ -13,6 +13,8 @@ var<workgroup> thread_sum: array<u32, WORKGROUP_SIZE>;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
               @builtin(local_invocation_index) local: u32) {
+    // The last row of workgroups may reach beyond the blocks.
+    let writes = workgroup_index(workgroup, workgroups) < SCAN_BLOCKS;
     let block = min(workgroup_index(workgroup, workgroups), SCAN_BLOCKS - 1u);
     if local == 0u {
         atomicStore(&before, 0u);
@@ -47,6 +49,10 @@ fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
     var start = atomicLoad(&before) + thread_sum[local] - own;
     for (var k = 0u; k < SCAN_VECTORS; k++) {
         let n = counts[k];
+        if !writes {
+            break;
+        }
+        cell_count[first + k] = vec4u(0u);
         cell_start[first + k] = vec4u(start, start + n.x, start + n.x + n.y, start + n.x + n.y + n.z);
         start += n.x + n.y + n.z + n.w;
     }

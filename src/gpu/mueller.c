@@ -2,10 +2,8 @@
 // which judges it.
 //
 // Steps are batched: one compute pass holds as many as a submit may take, with no work for the queue in
-// between. Between steps cell_count and the heads of cell_link are zero (density empties them).
+// between. Between steps cell_count and the heads of cell_link are zero (scan_write and density empty them).
 #include "gpu/mueller.h"
-#include "core/sim.h"
-#include "gpu/platform.h"
 #include "gpu/solvers.h"
 
 #include <math.h>
@@ -13,74 +11,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Pairs that a submit may visit: about 50 ms on an integrated GPU, after which a watchdog or a browser's
-// frame would suffer, and steps of one submit, after which more would no longer hide anything.
-static const double pairs_per_submit = 3e8;
-enum { MAX_STEPS_PER_SUBMIT = 64 };
-
-// Where passes are recorded: into one compute pass, or, if measured, each into one of its own.
-typedef struct Recorder {
-    WeirMueller *solver;
-    WGPUCommandEncoder encoder;
-    WGPUComputePassEncoder pass; // NULL: measured
-} Recorder;
-
-static void record(const Recorder *recorder, WeirPass pass)
-{
-    WeirMueller *solver = recorder->solver;
-    if (recorder->pass) {
-        weir_pass_dispatch(&solver->passes, pass, recorder->pass);
-        return;
-    }
-    WGPUComputePassEncoder own = weir_profile_begin_pass(solver->profile, pass, recorder->encoder);
-    weir_pass_dispatch(&solver->passes, pass, own);
-    weir_profile_end_pass(solver->profile, own);
-}
-
 // ---- The step ----
 
-static void evaluate(const Recorder *recorder)
+static void evaluate(WeirMueller *solver, const WeirRecorder *recorder)
 {
-    if (recorder->solver->parameters.search == WEIR_SEARCH_ALL_PAIRS) {
-        record(recorder, WEIR_PASS_DENSITY_ALL_PAIRS);
-        record(recorder, WEIR_PASS_FORCES_ALL_PAIRS);
+    if (solver->common.parameters.search == WEIR_SEARCH_ALL_PAIRS) {
+        weir_record(recorder, WEIR_MUELLER_DENSITY_ALL_PAIRS);
+        weir_record(recorder, WEIR_MUELLER_FORCES_ALL_PAIRS);
     } else {
-        record(recorder, WEIR_PASS_COUNT);
-        record(recorder, WEIR_PASS_SCAN_REDUCE);
-        record(recorder, WEIR_PASS_SCAN_WRITE);
-        record(recorder, WEIR_PASS_SCATTER);
-        record(recorder, WEIR_PASS_DENSITY);
-        record(recorder, WEIR_PASS_FORCES);
+        weir_record(recorder, WEIR_MUELLER_COUNT);
+        weir_record(recorder, WEIR_MUELLER_SCAN_REDUCE);
+        weir_record(recorder, WEIR_MUELLER_SCAN_WRITE);
+        weir_record(recorder, WEIR_MUELLER_SCATTER);
+        weir_record(recorder, WEIR_MUELLER_DENSITY);
+        weir_record(recorder, WEIR_MUELLER_FORCES);
     }
-    ++recorder->solver->device_step; // forces counts it
+    ++solver->device_step; // forces counts it
 }
 
-static void take_step(const Recorder *recorder)
+static void take_step(WeirMueller *solver, const WeirRecorder *recorder)
 {
-    evaluate(recorder);
-    record(recorder, WEIR_PASS_INTEGRATE);
-    ++recorder->solver->steps;
+    evaluate(solver, recorder);
+    weir_record(recorder, WEIR_MUELLER_INTEGRATE);
+    ++solver->steps;
 }
 
-WGPUCommandEncoder weir_mueller_commands(WeirMueller *solver, const char *label)
-{
-    return wgpuDeviceCreateCommandEncoder(solver->gpu->device,
-                                          &(WGPUCommandEncoderDescriptor){.label = weir_gpu_text(label)});
-}
-
-static Recorder begin_recording(WeirMueller *solver, WGPUCommandEncoder encoder)
-{
-    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text("step")};
-    return (Recorder){solver, encoder, wgpuCommandEncoderBeginComputePass(encoder, &descriptor)};
-}
-
-static void end_recording(const Recorder *recorder)
-{
-    wgpuComputePassEncoderEnd(recorder->pass);
-    wgpuComputePassEncoderRelease(recorder->pass);
-}
-
-static uint32_t steps_per_submit(const WeirMueller *solver)
+static uint32_t steps_per_submit(const WeirGpuSolver *solver)
 {
     const WeirParameters *parameters = &solver->parameters;
     double count = solver->constants.particle_count;
@@ -88,9 +44,7 @@ static uint32_t steps_per_submit(const WeirMueller *solver)
     // Candidates are about three times the neighbours pi (h / spacing)^2.
     double candidates =
         parameters->search == WEIR_SEARCH_ALL_PAIRS ? count : fmin(count, 3.0 * 3.14 * ratio * ratio);
-    double pairs = pairs_per_submit * (solver->gpu->software ? 0.01 : 1.0);
-    double steps = pairs / (2.0 * count * candidates);
-    return steps < 1.0 ? 1 : steps > MAX_STEPS_PER_SUBMIT ? MAX_STEPS_PER_SUBMIT : (uint32_t)steps;
+    return weir_steps_per_submit(solver->gpu, 2.0 * count * candidates);
 }
 
 // The device counts steps itself; only a read or a new state puts it out of step with the host.
@@ -98,84 +52,74 @@ static void align_step(WeirMueller *solver)
 {
     uint32_t step = (uint32_t)solver->steps;
     if (solver->device_step == step) return;
-    wgpuQueueWriteBuffer(solver->gpu->queue, solver->buffers.handle[WEIR_BUFFER_health],
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, solver->common.buffers.handle[WEIR_MUELLER_health],
                          offsetof(WeirDeviceHealth, step), &step, sizeof step);
     solver->device_step = step;
 }
 
 static void submit_steps(WeirMueller *solver, uint32_t steps, bool measured)
 {
+    WeirGpuSolver *common = &solver->common;
     align_step(solver);
-    WGPUCommandEncoder encoder = weir_mueller_commands(solver, "step");
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "step");
     if (measured) {
-        weir_profile_start(solver->profile);
-        take_step(&(Recorder){solver, encoder, NULL});
-        weir_profile_resolve(solver->profile, encoder);
+        WeirRecorder recorder = weir_recorder_measure(common, encoder);
+        take_step(solver, &recorder);
+        weir_recorder_end(&recorder);
         --steps;
     }
     if (steps > 0) {
-        Recorder recorder = begin_recording(solver, encoder);
-        for (uint32_t n = 0; n < steps; ++n) take_step(&recorder);
-        end_recording(&recorder);
+        WeirRecorder recorder = weir_recorder_begin(common, encoder);
+        for (uint32_t n = 0; n < steps; ++n) take_step(solver, &recorder);
+        weir_recorder_end(&recorder);
     }
-    weir_gpu_submit(solver->gpu, encoder, "step");
-    if (measured) weir_profile_submitted(solver->profile);
-    ++solver->work;
+    weir_gpu_submit(common->gpu, encoder, "step");
+    if (measured) weir_profile_submitted(common->profile);
+    ++common->work;
 }
 
 static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
     (void)until; // steps of one length: the caller counts them
     WeirMueller *solver = (WeirMueller *)base;
-    uint32_t most = steps_per_submit(solver);
-    weir_profile_poll(solver->profile);
-    bool measured = weir_profile_ready(solver->profile);
+    uint32_t most = steps_per_submit(&solver->common);
+    weir_profile_poll(solver->common.profile);
+    bool measured = weir_profile_ready(solver->common.profile);
     while (steps > 0) {
-        WeirStatus status = weir_mueller_check(solver);
+        WeirStatus status = weir_gpu_solver_check(&solver->common);
         if (status != WEIR_OK) return status;
         uint32_t batch = steps < most ? steps : most;
         submit_steps(solver, batch, measured);
         steps -= batch;
         measured = false;
     }
-    return weir_mueller_check(solver);
+    return weir_gpu_solver_check(&solver->common);
 }
 
 void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder)
 {
-    Recorder recorder = begin_recording(solver, encoder);
-    evaluate(&recorder);
-    end_recording(&recorder);
+    WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
+    evaluate(solver, &recorder);
+    weir_recorder_end(&recorder);
     // The renderer draws the state with the colours of flow: both must have the same order.
-    static const WeirBufferName pairs[][2] = {
-        {WEIR_BUFFER_sorted_position, WEIR_BUFFER_position},
-        {WEIR_BUFFER_sorted_velocity, WEIR_BUFFER_velocity},
-        {WEIR_BUFFER_sorted_id, WEIR_BUFFER_id},
+    static const WeirMuellerBuffer pairs[][2] = {
+        {WEIR_MUELLER_sorted_position, WEIR_MUELLER_position},
+        {WEIR_MUELLER_sorted_velocity, WEIR_MUELLER_velocity},
+        {WEIR_MUELLER_sorted_id, WEIR_MUELLER_id},
     };
+    const WeirBuffers *buffers = &solver->common.buffers;
     for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n) {
-        wgpuCommandEncoderCopyBufferToBuffer(encoder, solver->buffers.handle[pairs[n][0]], 0,
-                                             solver->buffers.handle[pairs[n][1]], 0,
-                                             solver->buffers.size[pairs[n][0]]);
+        wgpuCommandEncoderCopyBufferToBuffer(encoder, buffers->handle[pairs[n][0]], 0,
+                                             buffers->handle[pairs[n][1]], 0, buffers->size[pairs[n][0]]);
     }
 }
 
 // ---- The rest of the solver's contract ----
 
-WeirStatus weir_mueller_check(WeirMueller *solver)
-{
-    WeirStatus status = weir_report_check(solver->report, &solver->base.message);
-    return status == WEIR_OK ? weir_gpu_check(solver->gpu, &solver->base.message) : status;
-}
-
 static void destroy(WeirSolver *base)
 {
     WeirMueller *solver = (WeirMueller *)base;
-    weir_readback_destroy(solver->state_copy);
-    weir_readback_destroy(solver->health_copy);
-    weir_profile_destroy(solver->profile);
-    weir_passes_destroy(&solver->passes);
-    if (solver->buffers.gpu) weir_buffers_destroy(&solver->buffers);
-    weir_report_destroy(solver->report);
+    weir_gpu_solver_destroy(&solver->common);
     free(solver->host);
     free(solver);
 }
@@ -183,25 +127,23 @@ static void destroy(WeirSolver *base)
 static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
                             const WeirConstants *constants)
 {
-    WeirMueller *solver = (WeirMueller *)base;
-    WeirStatus status = weir_mueller_check(solver);
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    WeirStatus status = weir_gpu_solver_check(solver);
     if (status != WEIR_OK) return status;
     // The layout of cell_link and the sizes of the buffers depend on it; it follows from no live parameter.
     if (constants->cell_count != solver->constants.cell_count)
         return weir_fail(&base->message, WEIR_ERROR_INPUT,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          solver->constants.cell_count, constants->cell_count);
-    status = weir_passes_prepare(&solver->passes, parameters, solver->report, &base->message);
-    if (status != WEIR_OK) return status;
-    solver->parameters = *parameters;
-    solver->constants = *constants;
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_parameters, parameters, sizeof *parameters);
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_constants, constants, sizeof *constants);
-    return WEIR_OK;
+    char settings[WEIR_SETTINGS_LENGTH];
+    uint32_t needed = weir_mueller_settings(parameters, settings);
+    status = weir_passes_prepare(&solver->passes, settings, needed, solver->report, &base->message);
+    if (status == WEIR_OK) weir_gpu_solver_configure(solver, parameters, constants);
+    return status;
 }
 
 // Ids in order, and the positions rounded once.
-static WeirStatus write_particles(WeirMueller *solver, const WeirParticles *particles)
+static WeirStatus write_particles(WeirGpuSolver *solver, const WeirParticles *particles)
 {
     uint32_t count = solver->constants.particle_count;
     uint32_t *id = malloc(count * sizeof *id);
@@ -210,8 +152,8 @@ static WeirStatus write_particles(WeirMueller *solver, const WeirParticles *part
     if (status == WEIR_OK) {
         for (uint32_t i = 0; i < count; ++i) id[i] = i;
         for (size_t k = 0; k < 2 * (size_t)count; ++k) position[k] = (float)particles->position[k];
-        weir_buffers_write(&solver->buffers, WEIR_BUFFER_id, id, count * sizeof *id);
-        weir_buffers_write(&solver->buffers, WEIR_BUFFER_position, position,
+        weir_buffers_write(&solver->buffers, WEIR_MUELLER_id, id, count * sizeof *id);
+        weir_buffers_write(&solver->buffers, WEIR_MUELLER_position, position,
                            2 * (size_t)count * sizeof *position);
     }
     free(id);
@@ -223,53 +165,23 @@ static WeirStatus write_particles(WeirMueller *solver, const WeirParticles *part
 static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
 {
     WeirMueller *solver = (WeirMueller *)base;
-    WeirStatus status = weir_mueller_check(solver);
-    if (status == WEIR_OK) status = write_particles(solver, particles);
+    WeirGpuSolver *common = &solver->common;
+    WeirStatus status = weir_gpu_solver_check(common);
+    if (status == WEIR_OK) status = write_particles(common, particles);
     if (status != WEIR_OK) return status;
-    size_t bytes = 2 * sizeof(float) * (size_t)solver->constants.particle_count;
+    size_t bytes = 2 * sizeof(float) * (size_t)common->constants.particle_count;
     WeirDeviceHealth health = {.first_bad_step = UINT32_MAX};
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_velocity, particles->velocity, bytes);
-    weir_buffers_write(&solver->buffers, WEIR_BUFFER_health, &health, sizeof health);
+    weir_buffers_write(&common->buffers, WEIR_MUELLER_velocity, particles->velocity, bytes);
+    weir_buffers_write(&common->buffers, WEIR_MUELLER_health, &health, sizeof health);
     solver->steps = solver->device_step = 0;
-    solver->health = (WeirHealth){0};
-    solver->state_copy_stale = true;
-    solver->state_work = ++solver->work;
+    common->health = (WeirHealth){0};
+    common->state_copy_stale = true;
+    common->state_work = ++common->work;
     // Density and pressure of the new state, for whoever draws it before the first step.
-    WGPUCommandEncoder encoder = weir_mueller_commands(solver, "set_state");
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
     weir_mueller_evaluate(solver, encoder);
-    weir_gpu_submit(solver->gpu, encoder, "set_state");
-    return weir_mueller_check(solver);
-}
-
-static WeirStatus poll(WeirSolver *base, WeirHealth *health)
-{
-    WeirMueller *solver = (WeirMueller *)base;
-    weir_gpu_poll(solver->gpu);
-    WeirStatus status = weir_mueller_check(solver);
-    if (status == WEIR_OK) {
-        weir_profile_poll(solver->profile);
-        weir_mueller_poll_health(solver);
-        status = weir_mueller_check(solver);
-    }
-    *health = solver->health;
-    return status;
-}
-
-static WeirStatus wait_until_done(WeirSolver *base)
-{
-    WeirMueller *solver = (WeirMueller *)base;
-    for (;;) {
-        WeirHealth health;
-        WeirStatus status = poll(base, &health);
-        if (status != WEIR_OK) return status;
-        if (solver->health_known_work == solver->work) return WEIR_OK;
-        if (!weir_platform_wait(solver->gpu)) return WEIR_PENDING;
-    }
-}
-
-static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
-{
-    return weir_profile_times(((const WeirMueller *)base)->profile, times, capacity);
+    weir_gpu_submit(common->gpu, encoder, "set_state");
+    return weir_gpu_solver_check(common);
 }
 
 static const WeirSolverInterface mueller_interface = {
@@ -277,51 +189,28 @@ static const WeirSolverInterface mueller_interface = {
     .configure = configure,
     .set_state = set_state,
     .step = step,
-    .poll = poll,
-    .wait = wait_until_done,
-    .read = weir_mueller_read,
-    .pass_times = pass_times,
+    .poll = weir_gpu_solver_poll,
+    .wait = weir_gpu_solver_wait,
+    .read = weir_gpu_solver_read,
+    .pass_times = weir_gpu_solver_pass_times,
 };
-
-static WeirStatus make_copies(WeirMueller *solver, WeirMessage *message)
-{
-    uint64_t count = solver->constants.particle_count;
-    uint64_t bytes = WEIR_STATE_COPY_BYTES * count;
-    if (bytes > solver->gpu->limits.maxBufferSize)
-        return weir_fail(
-            message, WEIR_ERROR_MEMORY,
-            "reading %llu particles needs a GPU buffer of %llu MiB, but %s allows %llu MiB; raise "
-            "parameters.particle_spacing",
-            (unsigned long long)count, (unsigned long long)(bytes >> 20), solver->gpu->name,
-            (unsigned long long)(solver->gpu->limits.maxBufferSize >> 20));
-    weir_report_begin(solver->report);
-    solver->health_copy = weir_readback_create(solver->gpu, "health readback", sizeof(WeirDeviceHealth));
-    solver->state_copy = weir_readback_create(solver->gpu, "state readback", bytes);
-    weir_report_end(solver->report, "buffer for reading the state");
-    solver->host = malloc(count * WEIR_HOST_FLOATS * sizeof *solver->host);
-    if (!solver->health_copy || !solver->state_copy || !solver->host)
-        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
-                         (unsigned long long)count);
-    return WEIR_OK;
-}
 
 static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMessage *message)
 {
-    WeirGpu *gpu = solver->gpu;
-    solver->report = weir_report_create(gpu);
-    if (!solver->report) return weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
+    WeirGpuSolver *common = &solver->common;
+    uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL], count = setup->constants.particle_count;
+    weir_mueller_sizes(&setup->constants, sizes);
+    common->constants = setup->constants;
     WeirStatus status =
-        weir_buffers_create(&solver->buffers, gpu, &setup->constants, solver->report, message);
+        weir_gpu_solver_make(common, &weir_mueller_method, sizes, WEIR_STATE_COPY_BYTES * count, message);
     if (status != WEIR_OK) return status;
-    solver->constants = setup->constants;
-    status = make_copies(solver, message);
-    if (status != WEIR_OK) return status;
-    solver->passes = (WeirPasses){
-        .gpu = gpu, .buffers = &solver->buffers, .particle_count = setup->constants.particle_count};
-    solver->profile = weir_profile_create(gpu, solver->report);
-    status = configure(&solver->base, &setup->parameters, &setup->constants);
-    if (status == WEIR_OK) status = set_state(&solver->base, &setup->world->particles);
-    if (status != WEIR_OK) *message = solver->base.message;
+    solver->host = malloc(count * WEIR_HOST_FLOATS * sizeof *solver->host);
+    if (!solver->host)
+        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
+                         (unsigned long long)count);
+    status = configure(&common->base, &setup->parameters, &setup->constants);
+    if (status == WEIR_OK) status = set_state(&common->base, &setup->world->particles);
+    if (status != WEIR_OK) *message = common->base.message;
     return status;
 }
 
@@ -333,26 +222,31 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
         *status = weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
         return NULL;
     }
-    solver->base.interface = &mueller_interface;
-    solver->gpu = gpu;
-    snprintf(solver->base.device, sizeof solver->base.device, "%s", gpu->name);
+    WeirGpuSolver *common = &solver->common;
+    common->base.interface = &mueller_interface;
+    common->gpu = gpu;
+    common->health_buffer = WEIR_MUELLER_health;
+    common->health_size = sizeof(WeirDeviceHealth);
+    common->take_health = weir_mueller_take_health;
+    common->copy_state = weir_mueller_copy_state;
+    common->take_state = weir_mueller_take_state;
+    snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
     *status = make(solver, setup, message);
-    if (*status == WEIR_OK) return &solver->base;
-    destroy(&solver->base);
+    if (*status == WEIR_OK) return &common->base;
+    destroy(&common->base);
     return NULL;
 }
 
-bool weir_gpu_particles(WeirSim *sim, WeirGpuParticles *particles)
+bool weir_mueller_gpu_particles(const WeirSolver *base, WeirGpuParticles *particles)
 {
-    WeirSolver *base = weir_sim_solver(sim);
-    if (!base || base->interface != &mueller_interface) return false;
-    const WeirMueller *solver = (const WeirMueller *)base;
+    if (base->interface != &mueller_interface) return false;
+    const WeirGpuSolver *solver = (const WeirGpuSolver *)base;
     *particles = (WeirGpuParticles){
         .gpu = solver->gpu,
         .method = WEIR_METHOD_MUELLER,
-        .position = solver->buffers.handle[WEIR_BUFFER_position],
-        .velocity = solver->buffers.handle[WEIR_BUFFER_velocity],
-        .flow = solver->buffers.handle[WEIR_BUFFER_flow],
+        .position = solver->buffers.handle[WEIR_MUELLER_position],
+        .velocity = solver->buffers.handle[WEIR_MUELLER_velocity],
+        .flow = solver->buffers.handle[WEIR_MUELLER_flow],
         .count = solver->constants.particle_count,
     };
     return true;

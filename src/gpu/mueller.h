@@ -1,46 +1,83 @@
-// The method `mueller` on the GPU.
+// The method `mueller` on the GPU. One step, and who writes what:
+//
+//   position velocity id --count--> cell_count cell_link --scan--> cell_start --scatter--> sorted_*
+//        ^                                                                                    |
+//        +--integrate-- acceleration <--forces-- flow <--density-----------------------------+
 #pragma once
 
-#include "gpu/passes.h"
-#include "gpu/profile.h"
-#include "gpu/readback.h"
+#include "gpu/solver.h"
+
+#include <assert.h>
+
+// WEIR_BUFFER(name, bytes per particle, bytes per cell)
+#define WEIR_MUELLER_BUFFERS                                                                                 \
+    WEIR_BUFFER(position, 8, 0)                                                                              \
+    WEIR_BUFFER(velocity, 8, 0)                                                                              \
+    WEIR_BUFFER(id, 4, 0)                                                                                    \
+    WEIR_BUFFER(cell_count, 0, 4)                                                                            \
+    WEIR_BUFFER(cell_link, 4, 4)                                                                             \
+    WEIR_BUFFER(block_sum, 0, 0)                                                                             \
+    WEIR_BUFFER(cell_start, 0, 4)                                                                            \
+    WEIR_BUFFER(sorted_position, 8, 0)                                                                       \
+    WEIR_BUFFER(sorted_velocity, 8, 0)                                                                       \
+    WEIR_BUFFER(sorted_id, 4, 0)                                                                             \
+    WEIR_BUFFER(flow, 16, 0)                                                                                 \
+    WEIR_BUFFER(acceleration, 8, 0)                                                                          \
+    WEIR_BUFFER(health, 0, 0)
+
+typedef enum WeirMuellerBuffer {
+    WEIR_MUELLER_parameters, // the two uniforms
+    WEIR_MUELLER_constants,
+#define WEIR_BUFFER(name, per_particle, per_cell) WEIR_MUELLER_##name,
+    WEIR_MUELLER_BUFFERS
+#undef WEIR_BUFFER
+        WEIR_MUELLER_BUFFER_TOTAL
+} WeirMuellerBuffer;
+
+typedef enum WeirMuellerPass {
+    WEIR_MUELLER_COUNT,
+    WEIR_MUELLER_SCAN_REDUCE,
+    WEIR_MUELLER_SCAN_WRITE,
+    WEIR_MUELLER_SCATTER,
+    WEIR_MUELLER_DENSITY,
+    WEIR_MUELLER_FORCES,
+    WEIR_MUELLER_DENSITY_ALL_PAIRS,
+    WEIR_MUELLER_FORCES_ALL_PAIRS,
+    WEIR_MUELLER_INTEGRATE,
+    WEIR_MUELLER_PASS_TOTAL
+} WeirMuellerPass;
+
+// mueller_passes.c
+extern const WeirMethodInfo weir_mueller_method;
+// Bytes of each buffer.
+void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL]);
+// WGSL constants that follow from the parameters, and the passes that they need, by bit.
+uint32_t weir_mueller_settings(const WeirParameters *parameters, char settings[WEIR_SETTINGS_LENGTH]);
+
+// What integrate leaves, as `struct Health` in shaders/common/fluid.wgsl.
+typedef struct WeirDeviceHealth {
+    uint32_t bad_particles;
+    uint32_t first_bad_step; // UINT32_MAX: none
+    uint32_t step;           // low 32 bits of the step that forces ran last
+    uint32_t padding;
+} WeirDeviceHealth;
+static_assert(sizeof(WeirDeviceHealth) == 16, "a size that copies and bindings take");
 
 typedef struct WeirMueller {
-    WeirSolver base;
-    WeirGpu *gpu;
-    WeirParameters parameters;
-    WeirConstants constants;
-    WeirBuffers buffers;
-    WeirPasses passes;
-    WeirProfile *profile; // NULL: no timestamps
-    WeirReport *report;   // faults of what was made for this solver
-
-    uint64_t steps;       // queued since the last set_state()
-    uint32_t device_step; // what health.step will hold once the queue is done
-    uint64_t work;        // submits that changed the state, counted
-    uint64_t state_work;  // `work` when the state was last replaced
-
-    WeirReadback *health_copy;
-    uint64_t health_work, health_known_work; // `work` of the copy under way, and of the one that came last
-    WeirHealth health;
-
-    WeirReadback *state_copy;
-    uint64_t state_copy_step; // steps taken when it was queued
-    bool state_copy_stale;    // the state was replaced since
+    WeirGpuSolver common;
+    uint64_t steps;           // queued since the last set_state()
+    uint32_t device_step;     // what health.step will hold once the queue is done
+    uint64_t state_copy_step; // steps taken when the copy of the state was queued
     float *host;              // the arrays of WeirState, one after the other
 } WeirMueller;
 
 // mueller_read.c: what travels from the device to the host.
-WeirStatus weir_mueller_read(WeirSolver *solver, WeirState *state);
-// Starts or takes a copy of the health; never blocks.
-void weir_mueller_poll_health(WeirMueller *solver);
-// WEIR_OK, or the first error of device or solver, with its message.
-WeirStatus weir_mueller_check(WeirMueller *solver);
-// Commands to record; `label` is a static text.
-WGPUCommandEncoder weir_mueller_commands(WeirMueller *solver, const char *label);
+void weir_mueller_take_health(WeirGpuSolver *solver, const void *found);
+void weir_mueller_copy_state(WeirGpuSolver *solver);
+WeirStatus weir_mueller_take_state(WeirGpuSolver *solver, const void *copy, WeirState *state);
 // Queues count to forces on the current state, which then is in the sorted order, as flow is.
 void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder);
-// Bytes of the copy that weir_mueller_read() makes, per particle: position, flow, acceleration, id.
+// Bytes of the copy that weir_mueller_copy_state() makes, per particle: position, flow, acceleration, id.
 enum { WEIR_STATE_COPY_BYTES = 8 + 16 + 8 + 4 };
 // Floats of the host's arrays per particle: position, velocity, acceleration, density, pressure.
 enum { WEIR_HOST_FLOATS = 2 + 2 + 2 + 1 + 1 };

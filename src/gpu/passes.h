@@ -1,45 +1,66 @@
-// The passes of `mueller`: one name for the WGSL file, its entry point, the profiler and messages.
+// Passes of a solver: one name for the WGSL file, its entry point, the profiler and messages. A method lists its
+// passes and buffers in two tables (mueller_passes.c, wcsph_passes.c).
 #pragma once
 
 #include "gpu/buffers.h"
 
-typedef enum WeirPass {
-    WEIR_PASS_COUNT,
-    WEIR_PASS_SCAN_REDUCE,
-    WEIR_PASS_SCAN_WRITE,
-    WEIR_PASS_SCATTER,
-    WEIR_PASS_DENSITY,
-    WEIR_PASS_FORCES,
-    WEIR_PASS_DENSITY_ALL_PAIRS,
-    WEIR_PASS_FORCES_ALL_PAIRS,
-    WEIR_PASS_INTEGRATE,
-    WEIR_PASS_TOTAL
-} WeirPass;
+enum { WEIR_MAX_PASSES = 20, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 1024 };
+
+// What a pass is spread over.
+typedef enum WeirItems {
+    WEIR_ITEMS_PARTICLES,   // one thread per particle
+    WEIR_ITEMS_CELL_BLOCKS, // one workgroup per block of the scan
+    WEIR_ITEMS_ONE,         // one workgroup
+    WEIR_ITEMS_BLOCKS,      // one workgroup per block of solid particles (wcsph)
+    WEIR_ITEMS_TOTAL
+} WeirItems;
+
+typedef struct WeirPassInfo {
+    const char *name, *label, *source;
+    const char *settings;   // WGSL constants of this pass, NULL for none
+    uint32_t reads, writes; // storage buffers by bit; uniform buffers are bound to all
+    WeirItems items;
+} WeirPassInfo;
+
+// What a method is made of.
+typedef struct WeirMethodInfo {
+    const WeirBufferInfo *buffers;
+    const WeirPassInfo *passes;
+    uint32_t buffer_count, pass_count;
+    const char *const *parts; // WGSL before each pass's own, ended by NULL
+} WeirMethodInfo;
+
+// Pipelines for one choice of settings.
+typedef struct WeirVariant {
+    char settings[WEIR_SETTINGS_LENGTH];
+    WGPUComputePipeline pipeline[WEIR_MAX_PASSES]; // made when first needed
+} WeirVariant;
 
 typedef struct WeirPasses {
     WeirGpu *gpu;
+    const WeirMethodInfo *method;
     const WeirBuffers *buffers;
-    uint32_t particle_count;
-    uint32_t kernels; // which of the pipelines run
-    WGPUBindGroupLayout layout[WEIR_PASS_TOTAL];
-    WGPUBindGroup bind_group[WEIR_PASS_TOTAL];
-    WGPUComputePipeline pipeline[2][WEIR_PASS_TOTAL]; // by WeirParameters.kernels; made when first needed
+    uint32_t groups[WEIR_ITEMS_TOTAL]; // workgroups by what a pass is spread over
+    WGPUBindGroupLayout layout[WEIR_MAX_PASSES];
+    WGPUBindGroup bind_group[WEIR_MAX_PASSES];
+    WeirVariant variants[WEIR_MAX_VARIANTS];
+    uint32_t current, made; // the variant that runs; variants made so far
 } WeirPasses;
 
-const char *weir_pass_name(WeirPass pass);
 // Storage buffers that a pass binds: WebGPU promises no more than 8.
-uint32_t weir_pass_storage_buffers(WeirPass pass);
-// Makes what the passes of `parameters` need and does not exist yet. Faults go to `report`.
-WeirStatus weir_passes_prepare(WeirPasses *passes, const WeirParameters *parameters, WeirReport *report,
+uint32_t weir_pass_storage_buffers(const WeirPassInfo *pass);
+// Makes what the passes in the bits of `needed` lack under `settings`, which then are the ones that run: WGSL
+// constants of at most WEIR_SETTINGS_LENGTH - 1 characters. Faults go to `report`.
+WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,
                                WeirMessage *message);
 void weir_passes_destroy(WeirPasses *passes);
 // Records one pass.
-void weir_pass_dispatch(const WeirPasses *passes, WeirPass pass, WGPUComputePassEncoder encoder);
+void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder);
 
-// The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, common parts, then `source`. NULL
-// if memory runs out.
-char *weir_pass_source(const char *source, uint32_t kernels, uint32_t scan_blocks);
-// Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`.
-// NULL if memory runs out.
+// The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, then `source`. NULL if
+// memory runs out.
+char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks, const char *source);
+// Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if
+// memory runs out.
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,
                                        WGPUBindGroupLayout layout, WeirReport *report);

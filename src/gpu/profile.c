@@ -4,17 +4,17 @@
 
 #include <stdlib.h>
 
-enum { QUERIES = 2 * WEIR_PASS_TOTAL, RESOLVE_SIZE = 8 * QUERIES };
+enum { QUERIES = 2 * WEIR_MAX_PASSES, RESOLVE_SIZE = 8 * QUERIES };
 
 struct WeirProfile {
     WeirGpu *gpu;
     WGPUQuerySet queries;
     WGPUBuffer resolved;
     WeirReadback *readback;
-    WeirPass passes[WEIR_PASS_TOTAL]; // of the step under way, in order
+    const char *passes[WEIR_MAX_PASSES]; // names, of the step under way, in order
     uint32_t count;
     double nanoseconds; // per tick
-    WeirPassTime times[WEIR_PASS_TOTAL];
+    WeirPassTime times[WEIR_MAX_PASSES];
     uint32_t time_count;
 };
 
@@ -57,14 +57,14 @@ void weir_profile_start(WeirProfile *profile)
     profile->count = 0;
 }
 
-WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, WeirPass pass,
+WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char *pass,
                                                WGPUCommandEncoder encoder)
 {
     uint32_t n = profile->count++;
     profile->passes[n] = pass;
     WGPUPassTimestampWrites writes = {
         .querySet = profile->queries, .beginningOfPassWriteIndex = 2 * n, .endOfPassWriteIndex = 2 * n + 1};
-    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(weir_pass_name(pass)),
+    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(pass),
                                             .timestampWrites = &writes};
     return wgpuCommandEncoderBeginComputePass(encoder, &descriptor);
 }
@@ -96,7 +96,7 @@ void weir_profile_poll(WeirProfile *profile)
         uint64_t begin = ticks[2 * n], end = ticks[2 * n + 1];
         double elapsed = end > begin ? (double)(end - begin) : 0.0;
         profile->times[n] =
-            (WeirPassTime){weir_pass_name(profile->passes[n]), elapsed * profile->nanoseconds * 1e-6};
+            (WeirPassTime){profile->passes[n], elapsed * profile->nanoseconds * 1e-6};
     }
     weir_readback_finish(profile->readback);
 }

@@ -11,9 +11,9 @@ WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report);
 void weir_profile_destroy(WeirProfile *profile);
 // True if a step may be measured: none is under way.
 bool weir_profile_ready(const WeirProfile *profile);
-// Starts to measure a step; each pass is then recorded between begin and end.
+// Starts to measure a step; each pass is then recorded between begin and end. `pass` is a static text.
 void weir_profile_start(WeirProfile *profile);
-WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, WeirPass pass,
+WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char *pass,
                                                WGPUCommandEncoder encoder);
 void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder);
 // Ends the measured step: before and after its commands are submitted.

@@ -11,3 +11,6 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
                                     WeirMessage *message);
 WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
                                   WeirMessage *message);
+// For weir_gpu_particles(): false if `solver` is another one.
+bool weir_mueller_gpu_particles(const WeirSolver *solver, WeirGpuParticles *particles);
+bool weir_wcsph_gpu_particles(const WeirSolver *solver, WeirGpuParticles *particles);

@@ -2,6 +2,7 @@
 #include "adapter.h"
 #include "core/sim.h"
 #include "gpu/mueller.h"
+#include "gpu/wcsph.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -112,7 +113,7 @@ static void a_shader_error_names_the_pass(void **state)
     WeirReport *report = weir_report_create(gpu);
     WeirMessage message = {""};
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
-    char *source = weir_pass_source(wrong, 0, 1);
+    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});
     WGPUComputePipeline pipeline = weir_pass_pipeline(gpu, "density", "pass density", source, layout, report);
@@ -264,8 +265,10 @@ static void passes_are_timed(void **state)
 static void passes_fit_the_least_limits(void **state)
 {
     (void)state;
-    for (int pass = 0; pass < WEIR_PASS_TOTAL; ++pass) {
-        assert_in_range(weir_pass_storage_buffers(pass), 2, 8);
+    static const WeirMethodInfo *const methods[] = {&weir_mueller_method, &weir_wcsph_method};
+    for (int n = 0; n < 2; ++n) {
+        for (uint32_t pass = 0; pass < methods[n]->pass_count; ++pass)
+            assert_in_range(weir_pass_storage_buffers(&methods[n]->passes[pass]), 1, 8);
     }
 }
 

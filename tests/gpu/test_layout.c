@@ -1,8 +1,7 @@
 // Every field of Parameters and Constants, as a shader sees it, is the one that C wrote: a pass
 // echoes all of them.
 #include "adapter.h"
-#include "gpu/passes.h"
-#include "gpu/readback.h"
+#include "gpu/mueller.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,7 +44,7 @@ static char *make_shader(void)
     }
     length += (size_t)snprintf(body + length, sizeof body - length, "}\n");
     assert_true(length < sizeof body);
-    char *source = weir_pass_source(body, 0, 1);
+    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, body);
     assert_non_null(source);
     return source;
 }

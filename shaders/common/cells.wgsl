@@ -1,0 +1,147 @@
+// Coordinates in quanta, cells, and the runs of cells that hold a particle's neighbours (src/core/grid.h): one run per
+// row of cells, trimmed to the chord that the support cuts out of it. Where an axis is periodic, what lies beyond its
+// end is visited as an image, shifted by the period; the order is below, inside, above.
+fn axis_cell(coordinate: i32, shift: u32, count: u32) -> u32 {
+    return min(u32(max(coordinate, 0)) >> shift, count - 1u);
+}
+
+fn grid_cell(coordinate: vec4i) -> u32 {
+    let column = axis_cell(coordinate.x, constants.column_shift, constants.cell_columns);
+    let row = axis_cell(coordinate.y, constants.row_shift, constants.cell_rows);
+    if DIMENSION == 2u {
+        return row * constants.cell_columns + column;
+    }
+    let layer = axis_cell(coordinate.z, constants.row_shift, constants.cell_layers);
+    return (layer * constants.cell_rows + row) * constants.cell_columns + column;
+}
+
+// Rows (or layers) to visit along one axis: `below` in the lower image, then `inside`, then the rest above.
+struct Visits {
+    below_first: u32,
+    below: u32,
+    inside_first: u32,
+    inside: u32,
+    count: u32,
+}
+
+fn visits_of(at: i32, count: u32, periodic: bool, period: u32) -> Visits {
+    let reach = i32(1u << constants.coordinate_bits);
+    let low = at - reach;
+    let high = at + reach;
+    let shift = constants.row_shift;
+    let first = axis_cell(low, shift, count);
+    if !periodic {
+        let inside = axis_cell(high, shift, count) + 1u - first;
+        return Visits(0u, 0u, first, inside, inside);
+    }
+    let p = i32(period);
+    let last = axis_cell(p - 1, shift, count);
+    var visits = Visits(0u, 0u, first, axis_cell(min(high, p - 1), shift, count) + 1u - first, 0u);
+    if low < 0 {
+        visits.below_first = axis_cell(low + p, shift, count);
+        visits.below = last + 1u - visits.below_first;
+    }
+    visits.count = visits.below + visits.inside;
+    if high >= p {
+        visits.count += axis_cell(high - p, shift, count) + 1u;
+    }
+    return visits;
+}
+
+// The row of visit k, and by how much its image is shifted, in periods.
+fn visit(visits: Visits, k: u32) -> vec2i {
+    if k < visits.below {
+        return vec2i(i32(visits.below_first + k), -1);
+    }
+    if k < visits.below + visits.inside {
+        return vec2i(i32(visits.inside_first + k - visits.below), 0);
+    }
+    return vec2i(i32(k - visits.below - visits.inside), 1);
+}
+
+// Distance along one axis from `at` to a row of cells, in quanta. Rows at the edge reach to infinity, because
+// coordinates outside the grid are clamped into them.
+fn row_distance(at: i32, row: i32, count: u32) -> f32 {
+    let begin = row << constants.row_shift;
+    let below = select(begin - at, 0, row == 0);
+    let above = select(at - begin - i32((1u << constants.row_shift) - 1u), 0, row + 1 == i32(count));
+    return f32(max(max(below, above), 0));
+}
+
+// A walk over the runs around a particle:   var walk = walk_around(own);   while next_run(&walk) { ... }
+struct Walk {
+    rows: Visits,
+    layers: Visits,
+    row: u32,
+    layer: u32,
+    segment: u32,
+    own: Place,
+    place: Place,    // `own` as seen from the image that the run lies in
+    first_cell: u32, // of the run; empty if it is end_cell
+    end_cell: u32,
+}
+
+// Images along x: below, inside, above; only the inside if x is not periodic.
+const COLUMN_SEGMENTS = select(1u, 3u, PERIODIC_X);
+
+fn walk_around(own: vec4i) -> Walk {
+    var walk: Walk;
+    walk.own = place_of(own);
+    walk.rows = visits_of(own.y, constants.cell_rows, PERIODIC_Y, constants.period_y);
+    walk.layers = Visits(0u, 0u, 0u, 1u, 1u);
+    if DIMENSION == 3u {
+        walk.layers = visits_of(own.z, constants.cell_layers, PERIODIC_Z, constants.period_z);
+    }
+    return walk;
+}
+
+fn set_columns(walk: ptr<function, Walk>, reach: i32, first_row_cell: u32) {
+    var low = (*walk).place.x - reach;
+    var high = (*walk).place.x + reach;
+    if PERIODIC_X {
+        let p = i32(constants.period_x);
+        let image = i32((*walk).segment) - 1;
+        low = max(low - image * p, 0);
+        high = min(high - image * p, p - 1);
+        (*walk).place.x -= image * p;
+    }
+    if low <= high || !PERIODIC_X {
+        (*walk).first_cell = first_row_cell + axis_cell(low, constants.column_shift, constants.cell_columns);
+        (*walk).end_cell = first_row_cell + axis_cell(high, constants.column_shift, constants.cell_columns) + 1u;
+    }
+}
+
+// Goes to the next run; false if there is none.
+fn next_run(walk: ptr<function, Walk>) -> bool {
+    if (*walk).layer == (*walk).layers.count {
+        return false;
+    }
+    let support = f32(1u << constants.coordinate_bits);
+    let row = visit((*walk).rows, (*walk).row);
+    var first_row_cell = u32(row.x) * constants.cell_columns;
+    (*walk).place = (*walk).own;
+    (*walk).place.y -= row.y * i32(constants.period_y);
+    let distance = row_distance((*walk).place.y, row.x, constants.cell_rows);
+    var chord_squared = support * support - distance * distance;
+    if DIMENSION == 3u {
+        let layer = visit((*walk).layers, (*walk).layer);
+        first_row_cell += u32(layer.x) * constants.cell_rows * constants.cell_columns;
+        chord_squared -= deeper(walk, layer);
+    }
+    (*walk).first_cell = 0u;
+    (*walk).end_cell = 0u;
+    if chord_squared > 0.0 {
+        // A few quanta more than the chord, for rounding.
+        set_columns(walk, i32(sqrt(chord_squared)) + 4, first_row_cell);
+    }
+    (*walk).segment += 1u;
+    if (*walk).segment == COLUMN_SEGMENTS {
+        (*walk).segment = 0u;
+        (*walk).row += 1u;
+        if (*walk).row == (*walk).rows.count {
+            (*walk).row = 0u;
+            (*walk).layer += 1u;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,57 @@
+// First half of a step's move, with what empties slots on its way (weir_wcsph_drift). Used where the last step
+// finishes, and by pass drift for the first one of a batch.
+const FATE_STAYS = 0u;
+const FATE_DRAINED = 1u;
+const FATE_LOST = 2u;
+
+struct Drifted {
+    coordinate: vec4i,
+    fate: u32,
+}
+
+// Fluid beyond an open side, or beyond a wall by more than a support radius, is gone.
+fn is_outside(at: Vector) -> bool {
+    let reach = constants.search_radius;
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        if (axis == 0u && PERIODIC_X) || (axis == 1u && PERIODIC_Y) || (axis == 2u && PERIODIC_Z) {
+            continue;
+        }
+        let low = select(reach, 0.0, (constants.open_sides >> (2u * axis) & 1u) != 0u);
+        let high = select(reach, 0.0, (constants.open_sides >> (2u * axis + 1u) & 1u) != 0u);
+        if at[axis] < constants.domain_min[axis] - low || at[axis] > constants.domain_max[axis] + high {
+            return true;
+        }
+    }
+    return false;
+}
+
+fn is_drained(at: Vector) -> bool {
+    for (var n = 0u; n < DRAIN_COUNT; n++) {
+        if all(at >= vector_of(flows.drains[n].low)) && all(at <= vector_of(flows.drains[n].high)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// An inlet's particle becomes free where it has passed the nozzle.
+fn has_passed(at: Vector, group: u32) -> bool {
+    let n = min(group - GROUP_INLET, 15u);
+    return dot(at - vector_of(flows.emitters[n].center), vector_of(flows.emitters[n].direction)) >= 0.0;
+}
+
+fn drifted(coordinate: vec4i, velocity: Vector, half: f32) -> Drifted {
+    let place = moved(place_of(coordinate), half * velocity);
+    let at = position_of(place);
+    var group = u32(coordinate.w);
+    var fate = FATE_STAYS;
+    if group != GROUP_FLUID {
+        group = select(group, GROUP_FLUID, has_passed(at, group));
+    } else if is_drained(at) {
+        fate = FATE_DRAINED;
+    } else if is_outside(at) {
+        fate = FATE_LOST;
+    }
+    group = select(GROUP_EMPTY, group, fate == FATE_STAYS);
+    return Drifted(vec4i(wide_place(place), i32(group)), fate);
+}

@@ -1,0 +1,74 @@
+// Equation of state of `wcsph`, and the move of a particle (docs/wcsph.md).
+fn pressure_of(density: f32) -> f32 {
+    let stiffness = constants.sound_speed * constants.sound_speed;
+    if TAIT {
+        let ratio = density / parameters.rest_density;
+        let cube = ratio * ratio * ratio;
+        return parameters.rest_density * stiffness / 7.0 * (cube * cube * ratio - 1.0)
+            + parameters.background_pressure;
+    }
+    return linear_pressure(density);
+}
+
+// Of solid particles, whose density stands for their pressure.
+fn linear_pressure(density: f32) -> f32 {
+    let stiffness = constants.sound_speed * constants.sound_speed;
+    return stiffness * (density - parameters.rest_density) + parameters.background_pressure;
+}
+
+fn wrap(x: i32, period: u32) -> i32 {
+    let p = i32(period);
+    return select(select(x, x - p, x >= p), x + p, x < 0);
+}
+
+fn wrapped(place: Place) -> Place {
+    var to = place;
+    if PERIODIC_X {
+        to.x = wrap(to.x, constants.period_x);
+    }
+    if PERIODIC_Y {
+        to.y = wrap(to.y, constants.period_y);
+    }
+    if PERIODIC_Z {
+        to = wrap_z(to);
+    }
+    return to;
+}
+
+// Whole quanta of a way in metres; what is absurd does not move.
+fn quanta_of(way: Vector) -> Place {
+    let steps = round(way * constants.inverse_quantum);
+    return select(Place(0), Place(steps), abs(steps) < Vector(1e9));
+}
+
+fn moved(place: Place, way: Vector) -> Place {
+    return wrapped(place + quanta_of(way));
+}
+
+// Way in quanta of a solid's particle, from `place` to where the solid's state has it; across a periodic border the
+// short way. `start` is its place in the solid at the beginning.
+fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
+    let to = state.position.xyz - constants.origin.xyz + rotate(state.orientation, start);
+    var way = quanta_of(vector_of(vec4f(to, 0.0))) - place;
+    if PERIODIC_X {
+        way.x = short_way(way.x, constants.period_x);
+    }
+    if PERIODIC_Y {
+        way.y = short_way(way.y, constants.period_y);
+    }
+    if PERIODIC_Z {
+        way = short_way_z(way);
+    }
+    return way;
+}
+
+fn short_way(way: i32, period: u32) -> i32 {
+    let p = i32(period);
+    let rest = way % p;
+    return select(select(rest, rest - p, 2 * rest > p), rest + p, 2 * rest < -p);
+}
+
+// m
+fn position_of(place: Place) -> Vector {
+    return vector_of(constants.origin) + Vector(place) * constants.quantum;
+}

@@ -1,0 +1,144 @@
+// What a particle of `wcsph` is (src/core/world.h), where the simulation stands, and the state of walls and bodies.
+const GROUP_FLUID = 0u;
+const GROUP_SOLID = 1u;          // + index of the solid
+const GROUP_INLET = 0x40000000u; // + index of the emitter
+const GROUP_EMPTY = 0x7FFFFFFFu;
+
+fn is_solid(group: u32) -> bool {
+    return group - GROUP_SOLID < GROUP_INLET - GROUP_SOLID;
+}
+
+// Free fluid, and an inlet's.
+fn is_fluid(group: u32) -> bool {
+    return group == GROUP_FLUID || (group >= GROUP_INLET && group != GROUP_EMPTY);
+}
+
+// WeirWcsphControl in src/gpu/wcsph.h. Times are 64-bit counts of 2^-42 s, low word first: adding is exact.
+struct Control {
+    until: vec2u,           // written by the host for a batch of steps: no step passes it;
+    steps_left: u32,        // and how many steps it may take
+    running: u32,           // 1: the step under way moves particles up to `solids`
+    finishing: u32,         // 1: and after it
+    steps: u32,
+    time: vec2u,            // at the end of the last step
+    dt: f32,                // s, of the step that count to solids belong to
+    free_dt: f32,           // the next one's, if nothing shortens it
+    last_dt: f32,           // s, of the step that kick to finish belong to
+    drift_half: f32,        // s, half of the next step's length; 0: it is not taken yet
+    max_speed: f32,         // m/s, of the fluid in the last step
+    speed_bits: u32,        // largest speed and acceleration of the step under way: bits of floats >= 0 have their order
+    acceleration_bits: u32,
+    error_bits: u32,        // largest density error of the last step
+    bad_particles: u32,
+    bad_step: u32,          // 0xffffffff: none
+    bad_id: u32,
+    starting: u32,          // 1: forces_read takes the maxima of a new state
+    bad_place: vec4i,       // coordinate of particle bad_id
+    drained: u32,
+    lost: u32,
+    emitted: u32,
+    unused: u32,
+    due: array<vec4u, 16>,  // by emitter: when its next layer is due, xy, and when it stops, zw
+}
+
+// The same for passes in which all particles write at once.
+struct SharedControl {
+    until: vec2u,
+    steps_left: u32,
+    running: atomic<u32>,
+    finishing: u32,
+    steps: u32,
+    time: vec2u,
+    dt: f32,
+    free_dt: f32,
+    last_dt: f32,
+    drift_half: f32,
+    max_speed: f32,
+    speed_bits: atomic<u32>,
+    acceleration_bits: atomic<u32>,
+    error_bits: atomic<u32>,
+    bad_particles: atomic<u32>,
+    bad_step: atomic<u32>,
+    bad_id: atomic<u32>,
+    starting: u32,
+    bad_place: vec4i,
+    drained: atomic<u32>,
+    lost: atomic<u32>,
+    emitted: u32,
+    unused: u32,
+    due: array<vec4u, 16>,
+}
+
+// WeirSolid: what of a wall or body stays.
+struct Solid {
+    kind: u32,
+    no_slip: u32,
+    first: u32,
+    count: u32,
+    motion_first: u32,
+    motion_count: u32,
+    motion_repeats: u32,
+    mass: f32,
+    surface_velocity: vec4f,
+    freedom: vec4f,
+    angular_freedom: vec4f,
+    inverse_inertia: array<vec4f, 3>,
+    position: vec4f,
+    velocity: vec4f,
+    angular_velocity: vec4f,
+}
+const SOLID_FIXED = 0u;
+const SOLID_DRIVEN = 1u;
+const SOLID_FREE = 2u;
+
+// WeirSolidState. Three per solid in `solid_state`: NOW where its particles are; NEW as pass solids leaves it in the middle
+// of the step, with new velocities; SAVED as NOW was before that.
+struct SolidState {
+    position: vec4f,
+    orientation: vec4f,
+    velocity: vec4f,
+    angular_velocity: vec4f,
+    acceleration: vec4f,
+    angular_acceleration: vec4f,
+    force: vec4f,
+    torque: vec4f,
+}
+const NOW = 0u;
+const NEW = SOLID_COUNT;
+const SAVED = 2u * SOLID_COUNT;
+
+// WeirEmitter and WeirDrain.
+struct Emitter {
+    point_first: u32,
+    point_count: u32,
+    speed: f32,
+    start: f32,
+    stop: f32,
+    unused_x: f32,
+    unused_y: f32,
+    unused_z: f32,
+    direction: vec4f,
+    center: vec4f,
+}
+struct Drain {
+    low: vec4f,
+    high: vec4f,
+}
+struct Flows {
+    emitters: array<Emitter, 16>,
+    drains: array<Drain, 16>,
+}
+
+@group(0) @binding(BINDING_solid_table) var<uniform> solid_table: array<Solid, SOLID_COUNT>;
+@group(0) @binding(BINDING_flows) var<uniform> flows: Flows;
+
+// v turned by the unit quaternion q.
+fn rotate(q: vec4f, v: vec3f) -> vec3f {
+    let once = cross(q.xyz, v);
+    return v + 2.0 * (q.w * once + cross(q.xyz, once));
+}
+
+// Tests the exponent's bits: WGSL compilers may assume that no value is infinite or NaN.
+fn is_finite(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
+}

@@ -1,0 +1,116 @@
+// drho/dt with the new velocities and with density diffusion between fluid particles, then the step's second half:
+// rho += dt/2 drho, x += dt/2 v + dt u; health; and the first half of the next step's move, if there is one.
+//
+// in:  sorted_coordinate, sorted_id, cell_start, kicked (its second half: shifting velocities, ways of moving solids)
+// out: coordinate, motion, id, maxima and counts in control; where no step follows, kicked keeps the rates in w of its
+//      second half
+@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
+@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
+@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
+@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
+@group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+
+fn density_rate(own: vec4i, own_motion: vec4f) -> f32 {
+    let support = f32(1u << constants.coordinate_bits);
+    let c = constants.sound_speed;
+    // Density by height, per quantum.
+    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
+    let velocity = vector_of(own_motion);
+    var divergence = 0.0;
+    var diffusion = 0.0;
+    var walk = walk_around(own);
+    while next_run(&walk) {
+        let end = cell_start[walk.end_cell];
+        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+            let other = sorted_coordinate[j];
+            let offset = Vector(walk.place - place_of(other));
+            let r_squared = dot(offset, offset);
+            if r_squared < support * support {
+                let neighbor = kicked[j];
+                let slope = kernel_slope(sqrt(r_squared) * constants.inverse_support) / neighbor.w;
+                divergence += slope * dot(velocity - vector_of(neighbor), offset);
+                if DIFFUSION {
+                    // rho_j - rho_i less what the height between them makes
+                    let excess = neighbor.w - own_motion.w + dot(offset, hydrostatic);
+                    diffusion += select(0.0, slope * excess, !HAS_SOLIDS || is_fluid(u32(other.w)));
+                }
+            }
+        }
+    }
+    let volume = constants.particle_mass * constants.gradient_factor;
+    let compress = volume * constants.quantum;
+    let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * c;
+    return own_motion.w * compress * divergence + diffuse * diffusion;
+}
+
+fn check_health(i: u32, speed_squared: f32, rate: f32) {
+    let limit = constants.speed_limit;
+    if is_finite(speed_squared) && is_finite(rate) && speed_squared <= limit * limit {
+        return;
+    }
+    atomicAdd(&control.bad_particles, 1u);
+    atomicMin(&control.bad_step, control.steps);
+    atomicMin(&control.bad_id, sorted_id[i]);
+    // What the sort left, half a step ago, is the last good state: nothing may run over it.
+    atomicStore(&control.running, 0u);
+}
+
+fn finish_fluid(i: u32, own: vec4i) {
+    var own_motion = kicked[i];
+    let rate = density_rate(own, own_motion);
+    let velocity = vector_of(own_motion);
+    let last_half = 0.5 * control.last_dt;
+    check_health(i, dot(velocity, velocity), rate);
+    own_motion.w += last_half * rate;
+    let error = bitcast<u32>(abs(own_motion.w / parameters.rest_density - 1.0));
+    if error > atomicLoad(&control.error_bits) {
+        atomicMax(&control.error_bits, error);
+    }
+    var way = last_half * velocity;
+    if SHIFTING && u32(own.w) == GROUP_FLUID {
+        way += control.last_dt * vector_of(kicked[constants.particle_count + i]);
+    }
+    let finished = vec4i(wide_place(moved(place_of(own), way)), own.w);
+    let half = control.drift_half;
+    if half == 0.0 {
+        kicked[constants.particle_count + i].w = rate;
+        coordinate[i] = finished;
+        motion[i] = own_motion;
+        return;
+    }
+    own_motion.w += half * rate;
+    let to = drifted(finished, velocity, half);
+    if to.fate == FATE_DRAINED {
+        atomicAdd(&control.drained, 1u);
+    } else if to.fate == FATE_LOST {
+        atomicAdd(&control.lost, 1u);
+    }
+    coordinate[i] = to.coordinate;
+    motion[i] = own_motion;
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+              @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, workgroups, local);
+    if i >= constants.particle_count || control.finishing == 0u {
+        return;
+    }
+    let own = sorted_coordinate[i];
+    let group = u32(own.w);
+    id[i] = sorted_id[i];
+    if is_fluid(group) {
+        finish_fluid(i, own);
+        return;
+    }
+    var place = own;
+    if MOVING_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
+        let way = Place(vector_of(kicked[constants.particle_count + i]));
+        place = vec4i(wide_place(wrapped(place_of(own) + way)), own.w);
+    }
+    coordinate[i] = place;
+    motion[i] = kicked[i];
+}

@@ -1,0 +1,42 @@
+// First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
+// The later steps' is done by continuity.
+//
+// in:  coordinate, motion, id, kicked (rates of the last step in its second half), solid_state, local_place, control
+// out: coordinate, motion, counts in control
+@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
+@group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
+@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
+@group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
+@group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+         @builtin(local_invocation_index) local: u32) {
+    let i = thread_index(workgroup, workgroups, local);
+    if i >= constants.particle_count || control.drift_half == 0.0 {
+        return;
+    }
+    let old = coordinate[i];
+    let group = u32(old.w);
+    if is_fluid(group) {
+        let half = control.drift_half;
+        var own = motion[i];
+        if control.steps > 0u {
+            own.w += half * kicked[constants.particle_count + i].w;
+            motion[i] = own;
+        }
+        let to = drifted(old, vector_of(own), half);
+        coordinate[i] = to.coordinate;
+        if to.fate == FATE_DRAINED {
+            atomicAdd(&control.drained, 1u);
+        } else if to.fate == FATE_LOST {
+            atomicAdd(&control.lost, 1u);
+        }
+    } else if MOVING_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
+        let start = local_place[id[i] - constants.first_solid].xyz;
+        let way = way_to(solid_state[NOW + group - GROUP_SOLID], start, place_of(old));
+        coordinate[i] = vec4i(wide_place(wrapped(place_of(old) + way)), old.w);
+    }
+}

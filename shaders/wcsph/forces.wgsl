@@ -1,0 +1,263 @@
+// Acceleration from pressure, viscosity and body forces, with the kick: new velocities; shifting velocity; the fluid's
+// force on the particles of free bodies. The largest speed and acceleration of the fluid.
+//
+// Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
+//
+// in:  sorted_coordinate, sorted_motion, sorted_id, cell_start, solid_state, control
+// out: kicked: new velocity and density; from particle_count on: shifting velocity; from 2 particle_count on, by id:
+//      two per solid particle, force of the fluid and of contact. cell_link's heads are emptied for the next count.
+// With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and nothing else changes.
+@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
+@group(0) @binding(BINDING_sorted_motion) var<storage, read> sorted_motion: array<vec4f>;
+@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
+@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
+@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+@group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
+
+struct Sums {
+    pressure: Vector,   // of p_j, and of the artificial viscosity
+    gradient: Vector,   // of 1
+    laminar: Vector,
+    clustering: Vector, // of (W / W(spacing))^4
+    surface: f32,
+}
+
+// 1 if viscosity acts on it.
+fn sticks(group: u32) -> f32 {
+    if SLIP_SOLIDS && is_solid(group) {
+        return f32(solid_table[group - GROUP_SOLID].no_slip);
+    }
+    return 1.0;
+}
+
+// `solid`: the particle is one of a solid, on which only fluid acts.
+fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
+    let support = f32(1u << constants.coordinate_bits);
+    let h = constants.smoothing_length * constants.inverse_quantum;
+    let soft = 0.01 * h * h;
+    let velocity = vector_of(own_motion);
+    let stick = sticks(u32(own.w));
+    var sums: Sums;
+    var walk = walk_around(own);
+    while next_run(&walk) {
+        let end = cell_start[walk.end_cell];
+        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+            let other = sorted_coordinate[j];
+            let offset = Vector(walk.place - place_of(other));
+            let r_squared = dot(offset, offset);
+            let group = u32(other.w);
+            let fluid = !HAS_SOLIDS || is_fluid(group);
+            if r_squared < support * support && (fluid || !solid) {
+                let neighbor = sorted_motion[j];
+                let s = sqrt(r_squared) * constants.inverse_support;
+                let slope = kernel_slope(s) / neighbor.w;
+                var pressure = pressure_of(neighbor.w);
+                if TAIT && !fluid {
+                    pressure = linear_pressure(neighbor.w);
+                }
+                pressure *= -constants.quantum;
+                let relative = velocity - vector_of(neighbor);
+                if ARTIFICIAL {
+                    let approach = constants.artificial_factor * dot(relative, offset) / (r_squared + soft);
+                    pressure += select(0.0, approach, fluid && !solid);
+                }
+                sums.pressure += (slope * pressure) * offset;
+                sums.gradient += slope * offset;
+                if LAMINAR {
+                    sums.laminar += (slope * stick * sticks(group)) * relative;
+                }
+                if SHIFTING {
+                    let near = power4(kernel_shape(s) / constants.spacing_value);
+                    sums.clustering += (slope * near) * offset;
+                }
+                sums.surface += slope * r_squared;
+            }
+        }
+    }
+    return sums;
+}
+
+// By pressure and viscosity. `own_pressure` as it enters the sum.
+fn acceleration_of(sums: Sums, density: f32, own_pressure: f32) -> Vector {
+    let scale = constants.particle_mass * constants.gradient_factor / density;
+    var sum = sums.pressure - (constants.quantum * own_pressure) * sums.gradient;
+    if LAMINAR {
+        sum += (2.0 * parameters.viscosity) * sums.laminar;
+    }
+    return scale * sum;
+}
+
+// WeirToolKind
+const TOOL_NONE = 0u;
+const TOOL_PULL = 2u;
+const TOOL_STIR = 3u;
+
+fn body_forces(at: Vector, velocity: Vector) -> Vector {
+    var sum = vector_of(parameters.gravity)
+        - parameters.central_force * (at - vector_of(constants.center));
+    let offset = at - vector_of(constants.tool_position);
+    let distance = length(offset);
+    if constants.tool_kind == TOOL_NONE || distance >= constants.tool_radius {
+        return sum;
+    }
+    let strength = constants.tool_strength * (1.0 - distance / constants.tool_radius);
+    if constants.tool_kind == TOOL_STIR {
+        return sum + strength * (vector_of(constants.tool_velocity) - velocity);
+    }
+    let outward = offset * (strength / max(distance, 1e-15));
+    return sum + select(outward, -outward, constants.tool_kind == TOOL_PULL);
+}
+
+// Particle shifting (Sun et al. 2017), inside the fluid only.
+fn shift_of(sums: Sums) -> Vector {
+    let most = 0.25 * control.max_speed;
+    let factor = -parameters.shifting * 2.0 * constants.smoothing_length * control.max_speed
+        * constants.particle_mass * constants.gradient_factor * constants.quantum;
+    let u = factor * (sums.gradient + 0.2 * sums.clustering);
+    let speed = length(u);
+    return select(u, u * (most / max(speed, 1e-30)), speed > most);
+}
+
+// Own velocity of a particle of a solid, from where it is.
+fn solid_velocity(group: u32, at: Vector) -> vec3f {
+    let n = group - GROUP_SOLID;
+    let surface = solid_table[n].surface_velocity.xyz;
+    if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
+        return surface;
+    }
+    let arm = wide(at) - wide(vector_of(solid_state[NOW + n].position));
+    return surface + solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
+}
+
+// Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
+// damped, never attracting.
+fn contact_force(own: vec4i) -> Vector {
+    let spacing = parameters.particle_spacing;
+    let mass = constants.particle_mass;
+    let c = constants.sound_speed;
+    let group = u32(own.w);
+    let velocity = solid_velocity(group, position_of(place_of(own)));
+    var force = Vector();
+    var walk = walk_around(own);
+    while next_run(&walk) {
+        let end = cell_start[walk.end_cell];
+        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+            let other = sorted_coordinate[j];
+            let offset = Vector(walk.place - place_of(other)) * constants.quantum;
+            let r_squared = dot(offset, offset);
+            if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {
+                let r = sqrt(r_squared);
+                let relative = velocity - solid_velocity(u32(other.w), position_of(place_of(other)));
+                let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
+                    - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;
+                force += (max(push, 0.0) / r) * offset;
+            }
+        }
+    }
+    return force;
+}
+
+fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f) -> Vector {
+    let sums = sum_forces(own, own_motion, true);
+    let acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w));
+    let entry = 2u * (constants.particle_count + sorted_id[i] - constants.first_solid);
+    kicked[entry] = vec4f(constants.particle_mass * wide(acceleration), 0.0);
+    if FREE_SOLIDS && solid_table[u32(own.w) - GROUP_SOLID].kind == SOLID_FREE {
+        kicked[entry + 1u] = vec4f(wide(contact_force(own)), 0.0);
+    }
+    return acceleration;
+}
+
+fn wants_force(group: u32) -> bool {
+    return FORCES_READ || (FREE_SOLIDS && solid_table[group - GROUP_SOLID].kind == SOLID_FREE);
+}
+
+// Most threads see at once that theirs is not the largest.
+fn take_speed(square: f32) {
+    let bits = bitcast<u32>(sqrt(square));
+    if bits > atomicLoad(&control.speed_bits) {
+        atomicMax(&control.speed_bits, bits);
+    }
+}
+
+fn take_acceleration(square: f32) {
+    let bits = bitcast<u32>(sqrt(square));
+    if bits > atomicLoad(&control.acceleration_bits) {
+        atomicMax(&control.acceleration_bits, bits);
+    }
+}
+
+fn take_density(density: f32) {
+    let bits = bitcast<u32>(abs(density / parameters.rest_density - 1.0));
+    if bits > atomicLoad(&control.error_bits) {
+        atomicMax(&control.error_bits, bits);
+    }
+}
+
+fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
+    let sums = sum_forces(own, own_motion, false);
+    let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
+    let inside = full * sums.surface >= 0.95 * f32(DIMENSION);
+    let pressure = pressure_of(own_motion.w);
+    let acts = select(pressure, -pressure, TENSION_CONTROL && inside && pressure < 0.0);
+    let velocity = vector_of(own_motion);
+    let acceleration = acceleration_of(sums, own_motion.w, acts)
+        + body_forces(position_of(place_of(own)), velocity);
+    let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity
+    if FORCES_READ {
+        kicked[i] = vec4f(wide(acceleration), pressure);
+        if control.starting == 1u {
+            take_speed(dot(velocity, velocity));
+            take_acceleration(dot(acceleration, acceleration));
+            take_density(own_motion.w);
+        }
+        return;
+    }
+    let new_velocity = velocity + select(0.0, control.dt, free) * acceleration;
+    kicked[i] = vec4f(wide(new_velocity), own_motion.w);
+    var shift = Vector();
+    if SHIFTING && inside && free {
+        shift = shift_of(sums);
+    }
+    kicked[constants.particle_count + i] = vec4f(wide(shift), 0.0);
+    take_speed(dot(new_velocity, new_velocity));
+    if free {
+        take_acceleration(dot(acceleration, acceleration));
+    }
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+          @builtin(local_invocation_index) local: u32) {
+    if atomicLoad(&control.running) == 0u {
+        return;
+    }
+    let i = thread_index(workgroup, workgroups, local);
+    for (var cell = i; cell <= constants.cell_count; cell += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
+        cell_link[cell] = 0u;
+    }
+    if i >= constants.particle_count {
+        return;
+    }
+    let own = sorted_coordinate[i];
+    let own_motion = sorted_motion[i];
+    let group = u32(own.w);
+    if !HAS_SOLIDS || !is_solid(group) {
+        if group == GROUP_EMPTY {
+            kicked[i] = vec4f(0.0);
+        } else {
+            forces_on_fluid(i, own, own_motion);
+        }
+        return;
+    }
+    // Of a moving solid pass kick knows better.
+    kicked[i] = vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, own_motion.w);
+    if wants_force(group) {
+        let acceleration = force_on_solid(i, own, own_motion);
+        if FORCES_READ {
+            kicked[i] = vec4f(wide(acceleration), linear_pressure(own_motion.w));
+        }
+    }
+}

@@ -1,0 +1,43 @@
+// Forces and torques on solids, summed over one block of particles per workgroup, always in the same order.
+//
+// in:  kicked (forces by id), solid_state, local_place, blocks: solid, first id, last id + 1
+// out: solid_sum, four per block: force and torque of the fluid, of contact
+@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
+@group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
+@group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
+@group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(BINDING_solid_sum) var<storage, read_write> solid_sum: array<vec4f>;
+
+var<workgroup> partial: array<array<vec4f, 4>, WORKGROUP_SIZE>;
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn solid_forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+                    @builtin(local_invocation_index) local: u32) {
+    let b = min(workgroup_index(workgroup, workgroups), BLOCKS - 1u);
+    let block = blocks[b];
+    let orientation = solid_state[NOW + block.x].orientation;
+    var sums = array<vec4f, 4>();
+    for (var id = block.y + local; id < block.z; id += WORKGROUP_SIZE) {
+        let particle = id - constants.first_solid;
+        let arm = rotate(orientation, local_place[particle].xyz);
+        let entry = 2u * (constants.particle_count + particle);
+        let fluid = kicked[entry].xyz;
+        let contact = kicked[entry + 1u].xyz;
+        sums[0] += vec4f(fluid, 0.0);
+        sums[1] += vec4f(cross(arm, fluid), 0.0);
+        sums[2] += vec4f(contact, 0.0);
+        sums[3] += vec4f(cross(arm, contact), 0.0);
+    }
+    partial[local] = sums;
+    for (var half = WORKGROUP_SIZE / 2u; half > 0u; half /= 2u) {
+        workgroupBarrier();
+        if local < half {
+            for (var k = 0u; k < 4u; k++) {
+                partial[local][k] += partial[local + half][k];
+            }
+        }
+    }
+    if local < 4u {
+        solid_sum[4u * b + local] = partial[0][local];
+    }
+}

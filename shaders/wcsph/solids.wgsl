@@ -1,0 +1,62 @@
+// New velocities of walls and bodies from the forces on them, the step's time and the length of the next one (as pass
+// time_step), the second half of the solids' move and the first half of the next step's. One workgroup.
+//
+// in:  solid_state, solid_sum, blocks, motion_rows, control and its maxima
+// out: solid_state, control
+@group(0) @binding(BINDING_solid_sum) var<storage, read> solid_sum: array<vec4f>;
+@group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
+
+var<workgroup> largest: atomic<u32>; // acceleration of free bodies, as bits
+
+fn kicked_solid(n: u32) -> SolidState {
+    var state = solid_state[NOW + n];
+    if solid_table[n].kind != SOLID_FREE {
+        if is_driven(n) {
+            state = kicked_driven(n, state, control.dt);
+        }
+        return state;
+    }
+    var sums = array<vec3f, 4>();
+    for (var b = 0u; b < FREE_BLOCKS; b++) {
+        if blocks[b].x == n {
+            for (var k = 0u; k < 4u; k++) {
+                sums[k] += solid_sum[4u * b + k].xyz;
+            }
+        }
+    }
+    // Contact moves the body, but the force that is told is the fluid's.
+    state.force = vec4f(sums[0], 0.0);
+    state.torque = vec4f(sums[1], 0.0);
+    state = kicked_free(n, state, sums[0] + sums[2], sums[1] + sums[3], control.dt);
+    atomicMax(&largest, bitcast<u32>(length(state.acceleration.xyz)));
+    return state;
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn solids(@builtin(local_invocation_index) local: u32) {
+    if local == 0u {
+        atomicStore(&largest, 0u);
+    }
+    workgroupBarrier();
+    if control.running == 1u {
+        for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
+            solid_state[SAVED + n] = solid_state[NOW + n];
+            solid_state[NEW + n] = kicked_solid(n);
+        }
+    }
+    storageBarrier();
+    workgroupBarrier();
+    if local == 0u {
+        control.acceleration_bits = max(control.acceleration_bits, atomicLoad(&largest));
+        advance_clock();
+    }
+    storageBarrier();
+    workgroupBarrier();
+    if control.finishing == 1u {
+        let next = add_ticks(control.time, ticks_of(control.drift_half));
+        for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
+            let finished = drifted_solid(n, solid_state[NEW + n], 0.5 * control.last_dt, control.time);
+            solid_state[NOW + n] = drifted_solid(n, finished, control.drift_half, next);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+// The passes and buffers of `mueller`.
+#include "gpu/mueller.h"
+
+#include <stdio.h>
+
+#define SHADER(name) extern const char weir_wgsl_##name[];
+SHADER(common_uniforms)
+SHADER(common_index)
+SHADER(common_grid)
+SHADER(common_kernels)
+SHADER(common_fluid)
+SHADER(solve_count)
+SHADER(solve_scan_reduce)
+SHADER(solve_scan_write)
+SHADER(solve_scatter)
+SHADER(solve_density)
+SHADER(solve_forces)
+SHADER(solve_density_all_pairs)
+SHADER(solve_forces_all_pairs)
+SHADER(solve_integrate)
+
+static const WeirBufferInfo buffers[WEIR_MUELLER_BUFFER_TOTAL] = {
+    [WEIR_MUELLER_parameters] = {"parameters", "buffer parameters", true},
+    [WEIR_MUELLER_constants] = {"constants", "buffer constants", true},
+#define WEIR_BUFFER(name, per_particle, per_cell) [WEIR_MUELLER_##name] = {#name, "buffer " #name, false},
+    WEIR_MUELLER_BUFFERS
+#undef WEIR_BUFFER
+};
+
+void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL])
+{
+    uint64_t count = constants->particle_count, cells = weir_padded_cells(constants->cell_count);
+#define WEIR_BUFFER(name, per_particle, per_cell)                                                            \
+    sizes[WEIR_MUELLER_##name] = (uint64_t)(per_particle) * count + (uint64_t)(per_cell) * cells;
+    WEIR_MUELLER_BUFFERS
+#undef WEIR_BUFFER
+    sizes[WEIR_MUELLER_parameters] = sizeof(WeirParameters);
+    sizes[WEIR_MUELLER_constants] = sizeof(WeirConstants);
+    sizes[WEIR_MUELLER_health] = sizeof(WeirDeviceHealth);
+    sizes[WEIR_MUELLER_block_sum] = 4 * (cells / WEIR_SCAN_BLOCK);
+}
+
+#define BIT(name) (1u << WEIR_MUELLER_##name)
+enum { SORTED = BIT(sorted_position) | BIT(sorted_velocity) | BIT(sorted_id) };
+enum { STATE = BIT(position) | BIT(velocity) | BIT(id) };
+#define NAMED(name) #name, "pass " #name, weir_wgsl_solve_##name, NULL
+
+static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
+    [WEIR_MUELLER_COUNT] = {NAMED(count), BIT(position) | BIT(id), BIT(cell_count) | BIT(cell_link),
+                            WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_SCAN_REDUCE] = {NAMED(scan_reduce), BIT(cell_count), BIT(block_sum),
+                                  WEIR_ITEMS_CELL_BLOCKS},
+    [WEIR_MUELLER_SCAN_WRITE] = {NAMED(scan_write), BIT(block_sum), BIT(cell_count) | BIT(cell_start),
+                                 WEIR_ITEMS_CELL_BLOCKS},
+    [WEIR_MUELLER_SCATTER] = {NAMED(scatter), STATE | BIT(cell_link) | BIT(cell_start), SORTED,
+                              WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_DENSITY] = {NAMED(density), BIT(sorted_position) | BIT(sorted_velocity) | BIT(cell_start),
+                              BIT(flow) | BIT(cell_link), WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_FORCES] = {NAMED(forces), BIT(sorted_position) | BIT(flow) | BIT(cell_start),
+                             BIT(acceleration) | BIT(health), WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_DENSITY_ALL_PAIRS] = {NAMED(density_all_pairs), STATE, BIT(flow) | SORTED,
+                                        WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_FORCES_ALL_PAIRS] = {NAMED(forces_all_pairs), BIT(sorted_position) | BIT(flow),
+                                       BIT(acceleration) | BIT(health), WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_INTEGRATE] = {NAMED(integrate), SORTED | BIT(acceleration), STATE | BIT(health),
+                                WEIR_ITEMS_PARTICLES},
+};
+
+static const char *const parts[] = {weir_wgsl_common_uniforms, weir_wgsl_common_index, weir_wgsl_common_grid,
+                                    weir_wgsl_common_kernels,  weir_wgsl_common_fluid, NULL};
+
+const WeirMethodInfo weir_mueller_method = {
+    .buffers = buffers,
+    .passes = passes,
+    .buffer_count = WEIR_MUELLER_BUFFER_TOTAL,
+    .pass_count = WEIR_MUELLER_PASS_TOTAL,
+    .parts = parts,
+};
+
+uint32_t weir_mueller_settings(const WeirParameters *parameters, char settings[WEIR_SETTINGS_LENGTH])
+{
+    bool tutorial = parameters->kernels == WEIR_KERNELS_TUTORIAL;
+    snprintf(settings, WEIR_SETTINGS_LENGTH, "const TUTORIAL_KERNELS = %s;\n", tutorial ? "true" : "false");
+    uint32_t integrate = 1u << WEIR_MUELLER_INTEGRATE;
+    uint32_t all_pairs = 1u << WEIR_MUELLER_DENSITY_ALL_PAIRS | 1u << WEIR_MUELLER_FORCES_ALL_PAIRS;
+    if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | integrate;
+    return ((1u << WEIR_MUELLER_PASS_TOTAL) - 1) & ~all_pairs;
+}

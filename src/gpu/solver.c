@@ -1,0 +1,207 @@
+#include "gpu/solver.h"
+#include "gpu/platform.h"
+
+// Pairs that a submit may visit, and steps of one submit, after which more would no longer hide anything.
+static const double pairs_per_submit = 3e8;
+enum { MAX_STEPS_PER_SUBMIT = 64 };
+
+// ---- Making ----
+
+static WeirStatus make_copies(WeirGpuSolver *solver, uint64_t state_size, WeirMessage *message)
+{
+    uint64_t count = solver->constants.particle_count;
+    if (state_size > solver->gpu->limits.maxBufferSize)
+        return weir_fail(
+            message, WEIR_ERROR_MEMORY,
+            "reading %llu particles needs a GPU buffer of %llu MiB, but %s allows %llu MiB; raise "
+            "parameters.particle_spacing",
+            (unsigned long long)count, (unsigned long long)(state_size >> 20), solver->gpu->name,
+            (unsigned long long)(solver->gpu->limits.maxBufferSize >> 20));
+    weir_report_begin(solver->report);
+    solver->health_copy = weir_readback_create(solver->gpu, "health readback", solver->health_size);
+    solver->state_copy = weir_readback_create(solver->gpu, "state readback", state_size);
+    weir_report_end(solver->report, "buffer for reading the state");
+    if (!solver->health_copy || !solver->state_copy)
+        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
+                         (unsigned long long)count);
+    return WEIR_OK;
+}
+
+WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method, const uint64_t *sizes,
+                                uint64_t state_size, WeirMessage *message)
+{
+    WeirGpu *gpu = solver->gpu;
+    solver->report = weir_report_create(gpu);
+    if (!solver->report) return weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
+    solver->buffers = (WeirBuffers){.gpu = gpu, .info = method->buffers, .count = method->buffer_count};
+    for (uint32_t name = 0; name < method->buffer_count; ++name) solver->buffers.size[name] = sizes[name];
+    WeirStatus status = weir_buffers_create(&solver->buffers, &solver->constants, solver->report, message);
+    if (status != WEIR_OK) return status;
+    status = make_copies(solver, state_size, message);
+    if (status != WEIR_OK) return status;
+    uint32_t particles = solver->constants.particle_count;
+    uint64_t cells = weir_padded_cells(solver->constants.cell_count);
+    solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
+    solver->passes.groups[WEIR_ITEMS_PARTICLES] =
+        (particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = (uint32_t)(cells / WEIR_SCAN_BLOCK);
+    solver->passes.groups[WEIR_ITEMS_ONE] = 1;
+    solver->profile = weir_profile_create(gpu, solver->report);
+    return WEIR_OK;
+}
+
+void weir_gpu_solver_destroy(WeirGpuSolver *solver)
+{
+    weir_readback_destroy(solver->state_copy);
+    weir_readback_destroy(solver->health_copy);
+    weir_profile_destroy(solver->profile);
+    weir_passes_destroy(&solver->passes);
+    weir_buffers_destroy(&solver->buffers);
+    weir_report_destroy(solver->report);
+}
+
+WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver)
+{
+    WeirStatus status = weir_report_check(solver->report, &solver->base.message);
+    return status == WEIR_OK ? weir_gpu_check(solver->gpu, &solver->base.message) : status;
+}
+
+void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,
+                               const WeirConstants *constants)
+{
+    solver->parameters = *parameters;
+    solver->constants = *constants;
+    // The two uniforms come first in every method's list.
+    weir_buffers_write(&solver->buffers, 0, parameters, sizeof *parameters);
+    weir_buffers_write(&solver->buffers, 1, constants, sizeof *constants);
+}
+
+// ---- Recording ----
+
+WGPUCommandEncoder weir_gpu_solver_commands(WeirGpuSolver *solver, const char *label)
+{
+    return wgpuDeviceCreateCommandEncoder(solver->gpu->device,
+                                          &(WGPUCommandEncoderDescriptor){.label = weir_gpu_text(label)});
+}
+
+WeirRecorder weir_recorder_begin(WeirGpuSolver *solver, WGPUCommandEncoder encoder)
+{
+    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text("step")};
+    return (WeirRecorder){solver, encoder, wgpuCommandEncoderBeginComputePass(encoder, &descriptor)};
+}
+
+WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder encoder)
+{
+    weir_profile_start(solver->profile);
+    return (WeirRecorder){solver, encoder, NULL};
+}
+
+void weir_record(const WeirRecorder *recorder, uint32_t pass)
+{
+    WeirGpuSolver *solver = recorder->solver;
+    if (recorder->pass) {
+        weir_pass_dispatch(&solver->passes, pass, recorder->pass);
+        return;
+    }
+    const char *name = solver->passes.method->passes[pass].name;
+    WGPUComputePassEncoder own = weir_profile_begin_pass(solver->profile, name, recorder->encoder);
+    weir_pass_dispatch(&solver->passes, pass, own);
+    weir_profile_end_pass(solver->profile, own);
+}
+
+void weir_recorder_end(const WeirRecorder *recorder)
+{
+    if (recorder->pass) {
+        wgpuComputePassEncoderEnd(recorder->pass);
+        wgpuComputePassEncoderRelease(recorder->pass);
+    } else {
+        weir_profile_resolve(recorder->solver->profile, recorder->encoder);
+    }
+}
+
+uint32_t weir_steps_per_submit(const WeirGpu *gpu, double pairs)
+{
+    double steps = pairs_per_submit * (gpu->software ? 0.01 : 1.0) / pairs;
+    return steps < 1.0 ? 1 : steps > MAX_STEPS_PER_SUBMIT ? MAX_STEPS_PER_SUBMIT : (uint32_t)steps;
+}
+
+// ---- Health ----
+
+static void poll_health(WeirGpuSolver *solver)
+{
+    if (weir_readback_state(solver->health_copy) == WEIR_READBACK_READY) {
+        const void *found = weir_readback_data(solver->health_copy);
+        solver->health_known_work = solver->health_work;
+        if (solver->health_work >= solver->state_work) solver->take_health(solver, found);
+        weir_readback_finish(solver->health_copy);
+    }
+    bool idle = weir_readback_state(solver->health_copy) == WEIR_READBACK_IDLE;
+    if (!idle || solver->health_known_work == solver->work) return;
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(solver, "health");
+    weir_readback_copy(solver->health_copy, encoder, solver->buffers.handle[solver->health_buffer], 0,
+                       solver->health_size);
+    weir_gpu_submit(solver->gpu, encoder, "health");
+    weir_readback_start(solver->health_copy);
+    solver->health_work = solver->work;
+}
+
+WeirStatus weir_gpu_solver_poll(WeirSolver *base, WeirHealth *health)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    weir_gpu_poll(solver->gpu);
+    WeirStatus status = weir_gpu_solver_check(solver);
+    if (status == WEIR_OK) {
+        weir_profile_poll(solver->profile);
+        poll_health(solver);
+        status = weir_gpu_solver_check(solver);
+    }
+    *health = solver->health;
+    return status;
+}
+
+WeirStatus weir_gpu_solver_wait(WeirSolver *base)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    for (;;) {
+        WeirHealth health;
+        WeirStatus status = weir_gpu_solver_poll(base, &health);
+        if (status != WEIR_OK) return status;
+        if (solver->health_known_work == solver->work) return WEIR_OK;
+        if (!weir_platform_wait(solver->gpu)) return WEIR_PENDING;
+    }
+}
+
+// ---- State ----
+
+WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    for (;;) {
+        weir_gpu_poll(solver->gpu);
+        WeirStatus status = weir_gpu_solver_check(solver);
+        if (status != WEIR_OK) return status;
+        switch (weir_readback_state(solver->state_copy)) {
+        case WEIR_READBACK_IDLE:
+            solver->state_copy_stale = false;
+            solver->copy_state(solver);
+            weir_readback_start(solver->state_copy);
+            break;
+        case WEIR_READBACK_PENDING:
+            if (!weir_platform_wait(solver->gpu)) return WEIR_PENDING;
+            break;
+        case WEIR_READBACK_READY: {
+            const void *copy = weir_readback_data(solver->state_copy);
+            bool stale = solver->state_copy_stale;
+            if (copy && !stale) status = solver->take_state(solver, copy, state);
+            weir_readback_finish(solver->state_copy);
+            if (!copy) return weir_fail(&base->message, WEIR_ERROR_DEVICE, "read: the GPU's copy failed");
+            if (!stale && status != WEIR_PENDING) return status;
+        }
+        }
+    }
+}
+
+uint32_t weir_gpu_solver_pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
+{
+    return weir_profile_times(((const WeirGpuSolver *)base)->profile, times, capacity);
+}

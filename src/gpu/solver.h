@@ -1,0 +1,74 @@
+// What the solvers on the GPU have in common: recording steps in batches, queueing them, health and state on their
+// way to the host. A method's solver has a WeirGpuSolver as its first member and brings its own passes.
+#pragma once
+
+#include "gpu/passes.h"
+#include "gpu/profile.h"
+#include "gpu/readback.h"
+
+typedef struct WeirGpuSolver WeirGpuSolver;
+
+// Where passes are recorded: into one compute pass, or, if measured, each into one of its own.
+typedef struct WeirRecorder {
+    WeirGpuSolver *solver;
+    WGPUCommandEncoder encoder;
+    WGPUComputePassEncoder pass; // NULL: measured
+} WeirRecorder;
+
+struct WeirGpuSolver {
+    WeirSolver base;
+    WeirGpu *gpu;
+    WeirParameters parameters;
+    WeirConstants constants;
+    WeirBuffers buffers;
+    WeirPasses passes;
+    WeirProfile *profile; // NULL: no timestamps
+    WeirReport *report;   // faults of what was made for this solver
+
+    uint64_t work;       // submits that changed the state, counted
+    uint64_t state_work; // `work` when the state was last replaced
+
+    WeirReadback *health_copy;
+    uint32_t health_buffer; // what it copies, from the start
+    uint64_t health_size;
+    uint64_t health_work, health_known_work; // `work` of the copy under way, and of the one that came last
+    // Called when a copy arrived that is not older than the state; `found` NULL: the device failed.
+    void (*take_health)(WeirGpuSolver *solver, const void *found);
+    WeirHealth health;
+
+    WeirReadback *state_copy;
+    bool state_copy_stale;                              // the state was replaced since it was queued
+    void (*copy_state)(WeirGpuSolver *solver);          // queues commands that fill state_copy, and submits them
+    // Turns a copy into arrays on the host; WEIR_PENDING: another copy is needed.
+    WeirStatus (*take_state)(WeirGpuSolver *solver, const void *copy, WeirState *state);
+};
+
+// Makes report, buffers (`sizes` by buffer), passes, profile and copies of the given sizes. What was made before a
+// failure is freed by weir_gpu_solver_destroy().
+WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method, const uint64_t *sizes,
+                                uint64_t state_size, WeirMessage *message);
+// Frees all but the solver itself.
+void weir_gpu_solver_destroy(WeirGpuSolver *solver);
+// WEIR_OK, or the first error of device or solver, with its message in base.message.
+WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver);
+// Takes parameters and constants, and uploads them.
+void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,
+                               const WeirConstants *constants);
+
+// Commands to record; `label` is a static text.
+WGPUCommandEncoder weir_gpu_solver_commands(WeirGpuSolver *solver, const char *label);
+WeirRecorder weir_recorder_begin(WeirGpuSolver *solver, WGPUCommandEncoder encoder);
+// A recorder of a step that is measured pass by pass.
+WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder encoder);
+void weir_record(const WeirRecorder *recorder, uint32_t pass);
+void weir_recorder_end(const WeirRecorder *recorder);
+
+// Steps that one submit may hold, if a step visits `pairs` candidates: about 50 ms on an integrated GPU, after which a
+// watchdog or a browser's frame would suffer.
+uint32_t weir_steps_per_submit(const WeirGpu *gpu, double pairs);
+
+// The parts of WeirSolverInterface that are the same for all.
+WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
+WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
+WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);
+uint32_t weir_gpu_solver_pass_times(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
