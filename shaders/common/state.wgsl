@@ -37,7 +37,7 @@ struct Control {
     drained: u32,
     lost: u32,
     emitted: u32,
-    unused: u32,
+    restored: u32,          // 1: after a blow-up the last good state was put back
     due: array<vec4u, 16>,  // by emitter: when its next layer is due, xy, and when it stops, zw
 }
 
@@ -65,7 +65,7 @@ struct SharedControl {
     drained: atomic<u32>,
     lost: atomic<u32>,
     emitted: u32,
-    unused: u32,
+    restored: u32,
     due: array<vec4u, 16>,
 }
 

@@ -47,11 +47,8 @@ fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
     }
 
     var start = atomicLoad(&before) + thread_sum[local] - own;
-    for (var k = 0u; k < SCAN_VECTORS; k++) {
+    for (var k = 0u; k < SCAN_VECTORS && writes; k++) {
         let n = counts[k];
-        if !writes {
-            break;
-        }
         cell_count[first + k] = vec4u(0u);
         cell_start[first + k] = vec4u(start, start + n.x, start + n.x + n.y, start + n.x + n.y + n.z);
         start += n.x + n.y + n.z + n.w;

@@ -2,12 +2,11 @@
 // that finds too few waits, whole. One workgroup.
 //
 // in:  vacancy, nozzle (places of birth), control
-// out: coordinate, motion, kicked (rates), vacancy, control
+// out: coordinate, motion, vacancy, control
 @group(0) @binding(BINDING_vacancy) var<storage, read_write> vacancy: array<u32>;
 @group(0) @binding(BINDING_nozzle) var<storage, read> nozzle: array<vec4i>;
 @group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
-@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
 
 const IDS_PER_THREAD = 32u;
 var<workgroup> due_layer: u32;
@@ -42,7 +41,6 @@ fn bear(n: u32, k: u32, way: f32) {
         + quanta_of(way * vector_of(flows.emitters[n].direction));
     coordinate[i] = vec4i(wide_place(born), i32(GROUP_INLET + n));
     motion[i] = vec4f(wide(velocity), parameters.rest_density);
-    kicked[constants.particle_count + i].w = 0.0;
     vacancy[own_id] = 0u;
 }
 

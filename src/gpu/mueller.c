@@ -201,8 +201,9 @@ static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMe
     uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL], count = setup->constants.particle_count;
     weir_mueller_sizes(&setup->constants, sizes);
     common->constants = setup->constants;
-    WeirStatus status =
-        weir_gpu_solver_make(common, &weir_mueller_method, sizes, WEIR_STATE_COPY_BYTES * count, message);
+    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_MUELLER_block_sum] / 4);
+    WeirStatus status = weir_gpu_solver_make(common, &weir_mueller_method, sizes, scan_blocks,
+                                             WEIR_STATE_COPY_BYTES * count, message);
     if (status != WEIR_OK) return status;
     solver->host = malloc(count * WEIR_HOST_FLOATS * sizeof *solver->host);
     if (!solver->host)

@@ -43,7 +43,7 @@ void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUEL
 #define BIT(name) (1u << WEIR_MUELLER_##name)
 enum { SORTED = BIT(sorted_position) | BIT(sorted_velocity) | BIT(sorted_id) };
 enum { STATE = BIT(position) | BIT(velocity) | BIT(id) };
-#define NAMED(name) #name, "pass " #name, weir_wgsl_solve_##name, NULL
+#define NAMED(name) #name, "pass " #name, weir_wgsl_solve_##name, NULL, NULL
 
 static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
     [WEIR_MUELLER_COUNT] = {NAMED(count), BIT(position) | BIT(id), BIT(cell_count) | BIT(cell_link),

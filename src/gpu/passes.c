@@ -28,18 +28,33 @@ static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo 
     return length;
 }
 
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks, const char *source)
+static size_t length_of(const char *const *parts)
+{
+    size_t length = 0;
+    for (; parts && *parts; ++parts) length += strlen(*parts);
+    return length;
+}
+
+static char *append(char *end, const char *text)
+{
+    size_t length = strlen(text);
+    memcpy(end, text, length + 1);
+    return end + length;
+}
+
+char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks,
+                       const char *const *parts, const char *source)
 {
     size_t constants = write_constants(NULL, 0, method, settings, scan_blocks);
-    size_t size = constants + strlen(weir_wgsl_structs) + strlen(source) + 1;
-    for (const char *const *part = method->parts; *part; ++part) size += strlen(*part);
+    size_t size = constants + strlen(weir_wgsl_structs) + length_of(method->parts) + length_of(parts) +
+                  strlen(source) + 1;
     char *text = malloc(size);
     if (!text) return NULL;
     char *end = text + write_constants(text, size, method, settings, scan_blocks);
-    end += snprintf(end, size - (size_t)(end - text), "%s", weir_wgsl_structs);
-    for (const char *const *part = method->parts; *part; ++part)
-        end += snprintf(end, size - (size_t)(end - text), "%s", *part);
-    snprintf(end, size - (size_t)(end - text), "%s", source);
+    end = append(end, weir_wgsl_structs);
+    for (const char *const *part = method->parts; *part; ++part) end = append(end, *part);
+    for (const char *const *part = parts; part && *part; ++part) end = append(end, *part);
+    append(end, source);
     return text;
 }
 
@@ -104,8 +119,8 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
     const WeirPassInfo *info = &passes->method->passes[pass];
     char settings[2 * WEIR_SETTINGS_LENGTH];
     snprintf(settings, sizeof settings, "%s%s", variant->settings, info->settings ? info->settings : "");
-    char *source =
-        weir_pass_source(passes->method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS], info->source);
+    char *source = weir_pass_source(passes->method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS],
+                                    info->parts, info->source);
     if (!source) return false;
     variant->pipeline[pass] =
         weir_pass_pipeline(passes->gpu, info->name, info->label, source, passes->layout[pass], report);

@@ -4,7 +4,7 @@
 
 #include "gpu/buffers.h"
 
-enum { WEIR_MAX_PASSES = 20, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 1024 };
+enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 1024 };
 
 // What a pass is spread over.
 typedef enum WeirItems {
@@ -12,13 +12,15 @@ typedef enum WeirItems {
     WEIR_ITEMS_CELL_BLOCKS, // one workgroup per block of the scan
     WEIR_ITEMS_ONE,         // one workgroup
     WEIR_ITEMS_BLOCKS,      // one workgroup per block of solid particles (wcsph)
+    WEIR_ITEMS_FREE_BLOCKS, // the same of free bodies alone
     WEIR_ITEMS_TOTAL
 } WeirItems;
 
 typedef struct WeirPassInfo {
     const char *name, *label, *source;
-    const char *settings;   // WGSL constants of this pass, NULL for none
-    uint32_t reads, writes; // storage buffers by bit; uniform buffers are bound to all
+    const char *settings;     // WGSL constants of this pass, NULL for none
+    const char *const *parts; // WGSL before its own and after the method's, ended by NULL; NULL for none
+    uint32_t reads, writes;   // storage buffers by bit; uniform buffers are bound to all
     WeirItems items;
 } WeirPassInfo;
 
@@ -57,9 +59,10 @@ void weir_passes_destroy(WeirPasses *passes);
 // Records one pass.
 void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder);
 
-// The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, then `source`. NULL if
-// memory runs out.
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks, const char *source);
+// The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, `parts` (NULL for none),
+// then `source`. NULL if memory runs out.
+char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks,
+                       const char *const *parts, const char *source);
 // Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if
 // memory runs out.
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,

@@ -64,8 +64,7 @@ WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char 
     profile->passes[n] = pass;
     WGPUPassTimestampWrites writes = {
         .querySet = profile->queries, .beginningOfPassWriteIndex = 2 * n, .endOfPassWriteIndex = 2 * n + 1};
-    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(pass),
-                                            .timestampWrites = &writes};
+    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(pass), .timestampWrites = &writes};
     return wgpuCommandEncoderBeginComputePass(encoder, &descriptor);
 }
 
@@ -95,8 +94,7 @@ void weir_profile_poll(WeirProfile *profile)
     for (uint32_t n = 0; n < profile->time_count; ++n) {
         uint64_t begin = ticks[2 * n], end = ticks[2 * n + 1];
         double elapsed = end > begin ? (double)(end - begin) : 0.0;
-        profile->times[n] =
-            (WeirPassTime){profile->passes[n], elapsed * profile->nanoseconds * 1e-6};
+        profile->times[n] = (WeirPassTime){profile->passes[n], elapsed * profile->nanoseconds * 1e-6};
     }
     weir_readback_finish(profile->readback);
 }

@@ -28,7 +28,7 @@ static WeirStatus make_copies(WeirGpuSolver *solver, uint64_t state_size, WeirMe
 }
 
 WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method, const uint64_t *sizes,
-                                uint64_t state_size, WeirMessage *message)
+                                uint32_t scan_blocks, uint64_t state_size, WeirMessage *message)
 {
     WeirGpu *gpu = solver->gpu;
     solver->report = weir_report_create(gpu);
@@ -40,11 +40,9 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     status = make_copies(solver, state_size, message);
     if (status != WEIR_OK) return status;
     uint32_t particles = solver->constants.particle_count;
-    uint64_t cells = weir_padded_cells(solver->constants.cell_count);
     solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
-    solver->passes.groups[WEIR_ITEMS_PARTICLES] =
-        (particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
-    solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = (uint32_t)(cells / WEIR_SCAN_BLOCK);
+    solver->passes.groups[WEIR_ITEMS_PARTICLES] = (particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = scan_blocks;
     solver->passes.groups[WEIR_ITEMS_ONE] = 1;
     solver->profile = weir_profile_create(gpu, solver->report);
     return WEIR_OK;

@@ -1,10 +1,282 @@
-// The method `wcsph` on the GPU.
+// The method `wcsph` on the GPU: the same passes as src/core/cpu/wcsph.c, which judges it, fused where nothing stands
+// between them (docs/wcsph.md, gpu/wcsph.h).
+//
+// Steps are batched: one compute pass holds as many as a submit may take. The device chooses the time steps by itself;
+// steps that are left when `until` is reached, or after a blow-up, find control.running at 0 and do nothing. Between
+// steps cell_count and the heads of cell_link are zero (scan_write and forces empty them).
+#include "gpu/wcsph.h"
 #include "gpu/solvers.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// ---- The step ----
+
+static void record_emission(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+{
+    if (solver->traits.emitter_count == 0) return;
+    weir_record(recorder, WEIR_WCSPH_VACANCIES);
+    weir_record(recorder, WEIR_WCSPH_EMIT);
+}
+
+static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+{
+    weir_record(recorder, WEIR_WCSPH_COUNT);
+    weir_record(recorder, WEIR_WCSPH_SCAN_REDUCE);
+    weir_record(recorder, WEIR_WCSPH_SCAN_WRITE);
+    weir_record(recorder, WEIR_WCSPH_SCATTER);
+    if (solver->traits.solid_count > 0) weir_record(recorder, WEIR_WCSPH_WALLS);
+}
+
+// The first step's length and the first half of its move; later steps find theirs done by continuity.
+static void record_begin(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+{
+    weir_record(recorder, WEIR_WCSPH_BEGIN);
+    weir_record(recorder, WEIR_WCSPH_DRIFT);
+    record_emission(solver, recorder);
+}
+
+static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+{
+    record_sort(solver, recorder);
+    weir_record(recorder, WEIR_WCSPH_FORCES);
+    if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
+    if (solver->traits.moving_solids) {
+        weir_record(recorder, WEIR_WCSPH_SOLIDS);
+        weir_record(recorder, WEIR_WCSPH_KICK);
+    } else {
+        weir_record(recorder, WEIR_WCSPH_TIME_STEP);
+    }
+    weir_record(recorder, WEIR_WCSPH_CONTINUITY);
+    record_emission(solver, recorder);
+}
+
+void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder)
+{
+    WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
+    weir_record(&recorder, WEIR_WCSPH_BEGIN_READ);
+    record_sort(solver, &recorder);
+    weir_record(&recorder, WEIR_WCSPH_FORCES_READ);
+    if (solver->traits.solid_count > 0) weir_record(&recorder, WEIR_WCSPH_SOLID_FORCES_READ);
+    weir_recorder_end(&recorder);
+}
+
+static uint32_t steps_per_submit(const WeirGpuSolver *solver)
+{
+    const WeirParameters *parameters = &solver->parameters;
+    double count = solver->constants.particle_count;
+    double ratio = parameters->support_radius / parameters->particle_spacing;
+    double neighbors = solver->constants.dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.14 * ratio * ratio;
+    return weir_steps_per_submit(solver->gpu, 2.0 * count * fmin(count, 3.0 * neighbors));
+}
+
+// Up to `steps` steps in one submit. `first`, `last`: of the batch that the caller asked for.
+static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool last)
+{
+    WeirGpuSolver *common = &solver->common;
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "step");
+    weir_profile_poll(common->profile);
+    bool measured = first && weir_profile_ready(common->profile);
+    WeirRecorder recorder;
+    if (first) {
+        recorder = weir_recorder_begin(common, encoder);
+        record_begin(solver, &recorder);
+        weir_recorder_end(&recorder);
+    }
+    if (measured) {
+        recorder = weir_recorder_measure(common, encoder);
+        record_step(solver, &recorder);
+        weir_recorder_end(&recorder);
+        --steps;
+    }
+    recorder = weir_recorder_begin(common, encoder);
+    for (uint32_t n = 0; n < steps; ++n) record_step(solver, &recorder);
+    if (last) weir_record(&recorder, WEIR_WCSPH_HEALTH);
+    weir_recorder_end(&recorder);
+    weir_gpu_submit(common->gpu, encoder, "step");
+    if (measured) weir_profile_submitted(common->profile);
+    ++common->work;
+}
+
+// Seconds as the device counts them.
+static void write_ticks(double seconds, uint32_t ticks[2])
+{
+    double count = rint(seconds * 4398046511104.0); // 2^42
+    uint64_t whole = !(count > 0.0) ? 0 : count < 9.2e18 ? (uint64_t)count : (uint64_t)1 << 63;
+    ticks[0] = (uint32_t)whole;
+    ticks[1] = (uint32_t)(whole >> 32);
+}
+
+static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
+    WeirGpuSolver *common = &solver->common;
+    WeirStatus status = weir_gpu_solver_check(common);
+    if (status != WEIR_OK || steps == 0) return status;
+    WeirWcsphControl request = {.steps_left = steps};
+    write_ticks(until, request.until);
+    wgpuQueueWriteBuffer(common->gpu->queue, common->buffers.handle[WEIR_WCSPH_control], 0, &request,
+                         offsetof(WeirWcsphControl, running));
+    uint32_t most = steps_per_submit(common);
+    for (uint32_t done = 0; done < steps && status == WEIR_OK;) {
+        uint32_t batch = steps - done < most ? steps - done : most;
+        submit_steps(solver, batch, done == 0, done + batch == steps);
+        done += batch;
+        status = weir_gpu_solver_check(common);
+    }
+    return status;
+}
+
+// ---- The rest of the solver's contract ----
+
+static void destroy(WeirSolver *base)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
+    weir_gpu_solver_destroy(&solver->common);
+    weir_gpu_wcsph_free_world(solver);
+    free(solver->host);
+    free(solver->host_group);
+    free(solver->host_solids);
+    free(solver);
+}
+
+static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
+                            const WeirConstants *constants)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
+    WeirGpuSolver *common = &solver->common;
+    WeirStatus status = weir_gpu_solver_check(common);
+    if (status != WEIR_OK) return status;
+    // The layout of cell_link and the sizes of the buffers depend on it; it follows from no live parameter.
+    if (constants->cell_count != common->constants.cell_count)
+        return weir_fail(&base->message, WEIR_ERROR_INPUT,
+                         "the neighbour grid would change from %u to %u cells: make a new simulation",
+                         common->constants.cell_count, constants->cell_count);
+    char settings[WEIR_SETTINGS_LENGTH];
+    uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, &solver->traits, settings);
+    status = weir_passes_prepare(&common->passes, settings, needed, common->report, &base->message);
+    if (status == WEIR_OK) weir_gpu_solver_configure(common, parameters, constants);
+    return status;
+}
+
+static void write_control(WeirWcsphGpu *solver)
+{
+    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_id = UINT32_MAX, .starting = 1};
+    for (uint32_t n = 0; n < solver->traits.emitter_count; ++n) {
+        const WeirEmitter *emitter = &solver->world.emitters[n];
+        write_ticks(emitter->start, control.due[n]);
+        write_ticks(emitter->stop, control.due[n] + 2);
+    }
+    weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
+    solver->seen = control;
+}
+
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
+    WeirGpuSolver *common = &solver->common;
+    WeirStatus status = weir_gpu_solver_check(common);
+    if (status != WEIR_OK) return status;
+    if (!weir_gpu_wcsph_write_state(solver, particles))
+        return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u particles",
+                         common->constants.particle_count);
+    write_control(solver);
+    solver->steps_before = 0;
+    solver->blown_up = solver->restored = false;
+    common->health = (WeirHealth){.has_clock = true, .fluid_particles = solver->fluid_at_start};
+    common->state_copy_stale = true;
+    common->state_work = ++common->work;
+    // Accelerations and speeds give the first step's length.
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
+    weir_gpu_wcsph_evaluate(solver, encoder);
+    WeirRecorder recorder = weir_recorder_begin(common, encoder);
+    weir_record(&recorder, WEIR_WCSPH_FIRST_STEP);
+    weir_recorder_end(&recorder);
+    weir_gpu_submit(common->gpu, encoder, "set_state");
+    return weir_gpu_solver_check(common);
+}
+
+static const WeirSolverInterface wcsph_interface = {
+    .destroy = destroy,
+    .configure = configure,
+    .set_state = set_state,
+    .step = step,
+    .poll = weir_gpu_solver_poll,
+    .wait = weir_gpu_solver_wait,
+    .read = weir_gpu_solver_read,
+    .pass_times = weir_gpu_solver_pass_times,
+};
+
+static bool make_host(WeirWcsphGpu *solver)
+{
+    size_t count = solver->common.constants.particle_count, dimension = solver->common.constants.dimension;
+    solver->host = calloc((3 * dimension + 2) * count, sizeof *solver->host);
+    solver->host_group = calloc(count, sizeof *solver->host_group);
+    solver->host_solids = calloc(solver->traits.solid_count + 1, sizeof *solver->host_solids);
+    return solver->host && solver->host_group && solver->host_solids;
+}
+
+static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirMessage *message)
+{
+    WeirGpuSolver *common = &solver->common;
+    common->constants = setup->constants;
+    if (!weir_gpu_wcsph_copy_world(solver, setup) || !make_host(solver))
+        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %u particles",
+                         setup->constants.particle_count);
+    uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL];
+    weir_gpu_wcsph_sizes(&setup->constants, &solver->world, &solver->traits, sizes);
+    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_WCSPH_block_sum] / 4);
+    uint64_t copy_size = weir_gpu_wcsph_copy_size(sizes, setup->constants.particle_count);
+    const WeirMethodInfo *method = weir_gpu_wcsph_method(setup->constants.dimension);
+    WeirStatus status = weir_gpu_solver_make(common, method, sizes, scan_blocks, copy_size, message);
+    if (status != WEIR_OK) return status;
+    common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
+    common->passes.groups[WEIR_ITEMS_FREE_BLOCKS] = solver->traits.free_block_count;
+    status = configure(&common->base, &setup->parameters, &setup->constants);
+    if (status == WEIR_OK) weir_gpu_wcsph_write_world(solver);
+    if (status == WEIR_OK) status = set_state(&common->base, &setup->world->particles);
+    if (status != WEIR_OK) *message = common->base.message;
+    return status;
+}
 
 WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
                                   WeirMessage *message)
 {
-    (void)gpu, (void)setup;
-    *status = weir_fail(message, WEIR_ERROR_INPUT, "method: wcsph does not run on the GPU yet; use the CPU");
+    WeirWcsphGpu *solver = calloc(1, sizeof *solver);
+    if (!solver) {
+        *status = weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
+        return NULL;
+    }
+    WeirGpuSolver *common = &solver->common;
+    common->base.interface = &wcsph_interface;
+    common->gpu = gpu;
+    common->health_buffer = WEIR_WCSPH_control;
+    common->health_size = sizeof(WeirWcsphControl);
+    common->take_health = weir_gpu_wcsph_take_health;
+    common->copy_state = weir_gpu_wcsph_copy_state;
+    common->take_state = weir_gpu_wcsph_take_state;
+    snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
+    *status = make(solver, setup, message);
+    if (*status == WEIR_OK) return &common->base;
+    destroy(&common->base);
     return NULL;
+}
+
+bool weir_wcsph_gpu_particles(const WeirSolver *base, WeirGpuParticles *particles)
+{
+    if (base->interface != &wcsph_interface) return false;
+    const WeirWcsphGpu *solver = (const WeirWcsphGpu *)base;
+    const WeirGpuSolver *common = &solver->common;
+    *particles = (WeirGpuParticles){
+        .gpu = common->gpu,
+        .method = WEIR_METHOD_WCSPH,
+        .coordinate = common->buffers.handle[WEIR_WCSPH_coordinate],
+        .motion = common->buffers.handle[WEIR_WCSPH_motion],
+        .solids = solver->traits.solid_count > 0 ? common->buffers.handle[WEIR_WCSPH_solid_state] : NULL,
+        .count = common->constants.particle_count,
+        .solid_count = solver->traits.solid_count,
+    };
+    return true;
 }

@@ -113,7 +113,8 @@ static void a_shader_error_names_the_pass(void **state)
     WeirReport *report = weir_report_create(gpu);
     WeirMessage message = {""};
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
-    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, wrong);
+    char *source =
+        weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, NULL, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});
     WGPUComputePipeline pipeline = weir_pass_pipeline(gpu, "density", "pass density", source, layout, report);
@@ -265,7 +266,7 @@ static void passes_are_timed(void **state)
 static void passes_fit_the_least_limits(void **state)
 {
     (void)state;
-    static const WeirMethodInfo *const methods[] = {&weir_mueller_method, &weir_wcsph_method};
+    const WeirMethodInfo *const methods[] = {&weir_mueller_method, weir_gpu_wcsph_method(2)};
     for (int n = 0; n < 2; ++n) {
         for (uint32_t pass = 0; pass < methods[n]->pass_count; ++pass)
             assert_in_range(weir_pass_storage_buffers(&methods[n]->passes[pass]), 1, 8);

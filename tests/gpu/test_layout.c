@@ -44,7 +44,7 @@ static char *make_shader(void)
     }
     length += (size_t)snprintf(body + length, sizeof body - length, "}\n");
     assert_true(length < sizeof body);
-    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, body);
+    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, NULL, body);
     assert_non_null(source);
     return source;
 }

@@ -1,0 +1,152 @@
+// The method `wcsph` on the GPU. One step, and who writes what (each arrow a pass of docs/wcsph.md):
+//
+//   coordinate motion id --count, scan--> cell_start --scatter--> sorted_* --walls--> sorted_motion of solids
+//        ^                                                            |
+//        |                                            forces (with kick), solid_forces, solids | time_step, kick
+//        |                                                            v
+//        +-- continuity (with finish and the next step's drift) -- kicked
+//
+// A batch of steps starts with begin and drift; its last step ends without the next one's drift.
+#pragma once
+
+#include "gpu/solver.h"
+
+#include <assert.h>
+
+// WEIR_BUFFER(name): storage buffers. Sizes: weir_gpu_wcsph_sizes().
+#define WEIR_WCSPH_BUFFERS                                                                                   \
+    WEIR_BUFFER(coordinate)                                                                                  \
+    WEIR_BUFFER(motion)                                                                                      \
+    WEIR_BUFFER(id)                                                                                          \
+    WEIR_BUFFER(cell_count)                                                                                  \
+    WEIR_BUFFER(cell_link)                                                                                   \
+    WEIR_BUFFER(block_sum)                                                                                   \
+    WEIR_BUFFER(cell_start)                                                                                  \
+    WEIR_BUFFER(sorted_coordinate)                                                                           \
+    WEIR_BUFFER(sorted_motion)                                                                               \
+    WEIR_BUFFER(sorted_id)                                                                                   \
+    WEIR_BUFFER(kicked)                                                                                      \
+    WEIR_BUFFER(solid_state)                                                                                 \
+    WEIR_BUFFER(local_place)                                                                                 \
+    WEIR_BUFFER(blocks)                                                                                      \
+    WEIR_BUFFER(solid_sum)                                                                                   \
+    WEIR_BUFFER(motion_rows)                                                                                 \
+    WEIR_BUFFER(vacancy)                                                                                     \
+    WEIR_BUFFER(nozzle)                                                                                      \
+    WEIR_BUFFER(control)
+
+typedef enum WeirWcsphBuffer {
+    WEIR_WCSPH_parameters, // the uniforms
+    WEIR_WCSPH_constants,
+    WEIR_WCSPH_solid_table,
+    WEIR_WCSPH_flows,
+#define WEIR_BUFFER(name) WEIR_WCSPH_##name,
+    WEIR_WCSPH_BUFFERS
+#undef WEIR_BUFFER
+        WEIR_WCSPH_BUFFER_TOTAL
+} WeirWcsphBuffer;
+
+typedef enum WeirWcsphGpuPass {
+    WEIR_WCSPH_BEGIN,
+    WEIR_WCSPH_DRIFT,
+    WEIR_WCSPH_VACANCIES,
+    WEIR_WCSPH_EMIT,
+    WEIR_WCSPH_COUNT,
+    WEIR_WCSPH_SCAN_REDUCE,
+    WEIR_WCSPH_SCAN_WRITE,
+    WEIR_WCSPH_SCATTER,
+    WEIR_WCSPH_WALLS,
+    WEIR_WCSPH_FORCES,
+    WEIR_WCSPH_SOLID_FORCES,
+    WEIR_WCSPH_SOLIDS,
+    WEIR_WCSPH_TIME_STEP,
+    WEIR_WCSPH_KICK,
+    WEIR_WCSPH_CONTINUITY,
+    WEIR_WCSPH_BEGIN_READ,
+    WEIR_WCSPH_FORCES_READ, // forces for read() and at the start: accelerations, on all solids
+    WEIR_WCSPH_SOLID_FORCES_READ,
+    WEIR_WCSPH_FIRST_STEP,
+    WEIR_WCSPH_HEALTH,
+    WEIR_WCSPH_PASS_TOTAL
+} WeirWcsphGpuPass;
+
+// What a world asks of the passes.
+typedef struct WeirWcsphTraits {
+    uint32_t dimension, solid_count, emitter_count, drain_count;
+    uint32_t block_count, free_block_count; // blocks of solid particles; those of free bodies come first
+    bool moving_solids, free_solids, slip_solids;
+} WeirWcsphTraits;
+
+// Particles of one block of pass solid_forces.
+enum { WEIR_SOLID_BLOCK = 1024 };
+// Emitters and drains that fit into uniform buffer `flows`.
+enum { WEIR_WCSPH_MAX_FLOWS = 16 };
+
+// `struct Control` in shaders/common/state.wgsl. Times: low and high word of a count of 2^-42 s.
+typedef struct WeirWcsphControl {
+    uint32_t until[2];
+    uint32_t steps_left, running, finishing, steps;
+    uint32_t time[2];
+    float dt, free_dt, last_dt, drift_half, max_speed;
+    uint32_t speed_bits, acceleration_bits, error_bits;
+    uint32_t bad_particles, bad_step, bad_id; // bad_step UINT32_MAX: none
+    uint32_t starting;
+    int32_t bad_place[4];
+    uint32_t drained, lost, emitted, restored;
+    uint32_t due[WEIR_WCSPH_MAX_FLOWS][4];
+} WeirWcsphControl;
+static_assert(sizeof(WeirWcsphControl) == 112 + 16 * WEIR_WCSPH_MAX_FLOWS, "the layout of the shaders' struct");
+
+// `struct Flows`.
+typedef struct WeirWcsphFlows {
+    WeirEmitter emitters[WEIR_WCSPH_MAX_FLOWS];
+    WeirDrain drains[WEIR_WCSPH_MAX_FLOWS];
+} WeirWcsphFlows;
+static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
+static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
+static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
+
+// wcsph_passes.c
+// By dimension: 2, 3.
+const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension);
+// Bytes of each buffer.
+void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world, const WeirWcsphTraits *traits,
+                      uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL]);
+// WGSL constants, and the passes needed, by bit.
+uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,
+                             const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH]);
+
+typedef struct WeirWcsphGpu {
+    WeirGpuSolver common;
+    WeirWorld world; // without particles
+    WeirWcsphTraits traits;
+    uint32_t fluid_at_start; // particles
+    uint64_t steps_before;   // steps that the device counted in 32 bits before it wrapped around
+    bool blown_up;           // a copy said so, and host_solids are those before the bad step
+    bool restored;           // then: the last good state is the state
+    WeirWcsphControl seen;   // the last copy
+    uint32_t (*blocks)[4];   // solid, first id, last id + 1
+    float *local_place;      // 4 per solid particle: from its solid's reference point at the start, m
+    float *host;             // the arrays of WeirState, one after the other
+    uint32_t *host_group;
+    WeirSolidState *host_solids;
+} WeirWcsphGpu;
+
+// wcsph_world.c: what the world is for the device.
+bool weir_gpu_wcsph_copy_world(WeirWcsphGpu *solver, const WeirSolverSetup *setup);
+void weir_gpu_wcsph_free_world(WeirWcsphGpu *solver);
+// Fills all buffers of solids and emitters, which no new state changes.
+void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver);
+// Fills those that a new state does. False if memory runs out.
+bool weir_gpu_wcsph_write_state(WeirWcsphGpu *solver, const WeirParticles *particles);
+
+// wcsph.c
+// Queues count to forces on the current state.
+void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder);
+
+// wcsph_read.c
+// Bytes of the copy of a state.
+uint64_t weir_gpu_wcsph_copy_size(const uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count);
+void weir_gpu_wcsph_take_health(WeirGpuSolver *solver, const void *found);
+void weir_gpu_wcsph_copy_state(WeirGpuSolver *solver);
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, const void *copy, WeirState *state);

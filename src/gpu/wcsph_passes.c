@@ -1,0 +1,202 @@
+// The passes and buffers of `wcsph`.
+#include "gpu/wcsph.h"
+
+#include <stdio.h>
+
+#define SHADER(name) extern const char weir_wgsl_##name[];
+SHADER(common_uniforms)
+SHADER(common_index)
+SHADER(common_plane)
+SHADER(common_space)
+SHADER(common_state)
+SHADER(common_cells)
+SHADER(common_smoothing)
+SHADER(common_liquid)
+SHADER(common_drift)
+SHADER(common_clock)
+SHADER(common_bodies)
+SHADER(common_emitters)
+SHADER(solve_scan_reduce)
+SHADER(solve_scan_write)
+SHADER(wcsph_begin)
+SHADER(wcsph_begin_read)
+SHADER(wcsph_drift)
+SHADER(wcsph_vacancies)
+SHADER(wcsph_emit)
+SHADER(wcsph_count)
+SHADER(wcsph_scatter)
+SHADER(wcsph_walls)
+SHADER(wcsph_forces)
+SHADER(wcsph_solid_forces)
+SHADER(wcsph_solids)
+SHADER(wcsph_time_step)
+SHADER(wcsph_kick)
+SHADER(wcsph_continuity)
+SHADER(wcsph_first_step)
+SHADER(wcsph_health)
+
+static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
+    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true},
+    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true},
+    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true},
+    [WEIR_WCSPH_flows] = {"flows", "buffer flows", true},
+#define WEIR_BUFFER(name) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false},
+    WEIR_WCSPH_BUFFERS
+#undef WEIR_BUFFER
+};
+
+#define BIT(name) (1u << WEIR_WCSPH_##name)
+enum { SORTED = BIT(sorted_coordinate) | BIT(sorted_motion) | BIT(sorted_id) };
+enum { STATE = BIT(coordinate) | BIT(motion) | BIT(id) };
+enum { FORCES_READS = SORTED | BIT(cell_start) | BIT(solid_state) };
+enum { FORCES_WRITES = BIT(kicked) | BIT(control) | BIT(cell_link) };
+enum { SUM_READS = BIT(kicked) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
+
+static const char *const clock_part[] = {weir_wgsl_common_clock, NULL};
+static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_bodies, NULL};
+static const char *const emitters_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
+static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
+
+#define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
+#define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name
+#define READING(name) #name, "pass " #name "_read", weir_wgsl_wcsph_##name
+
+static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
+    [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, bodies_part, BIT(motion_rows), BIT(control) | BIT(solid_state),
+                          WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_DRIFT] = {WCSPH(drift), NULL, drift_part,
+                          BIT(id) | BIT(kicked) | BIT(solid_state) | BIT(local_place),
+                          BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, emitters_part, BIT(coordinate) | BIT(id),
+                              BIT(vacancy) | BIT(control), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_EMIT] = {WCSPH(emit), NULL, emitters_part, BIT(nozzle),
+                         BIT(vacancy) | BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_COUNT] = {WCSPH(count), NULL, NULL, BIT(coordinate) | BIT(id) | BIT(control),
+                          BIT(cell_count) | BIT(cell_link), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_SCAN_REDUCE] = {SOLVE(scan_reduce), NULL, NULL, BIT(cell_count), BIT(block_sum),
+                                WEIR_ITEMS_CELL_BLOCKS},
+    [WEIR_WCSPH_SCAN_WRITE] = {SOLVE(scan_write), NULL, NULL, BIT(block_sum),
+                               BIT(cell_count) | BIT(cell_start), WEIR_ITEMS_CELL_BLOCKS},
+    [WEIR_WCSPH_SCATTER] = {WCSPH(scatter), NULL, NULL, STATE | BIT(cell_link) | BIT(cell_start), SORTED,
+                            WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, NULL,
+                          BIT(sorted_coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(solid_state) |
+                              BIT(local_place) | BIT(control),
+                          BIT(sorted_motion), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", NULL, FORCES_READS, FORCES_WRITES,
+                           WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
+                                 WEIR_ITEMS_FREE_BLOCKS},
+    [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
+                           BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_KICK] = {WCSPH(kick), NULL, NULL,
+                         BIT(sorted_coordinate) | BIT(sorted_id) | BIT(solid_state) | BIT(local_place) |
+                             BIT(control),
+                         BIT(kicked), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_CONTINUITY] = {WCSPH(continuity), NULL, drift_part,
+                               BIT(sorted_coordinate) | BIT(sorted_id) | BIT(cell_start),
+                               BIT(kicked) | STATE | BIT(control), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", NULL, FORCES_READS,
+                                FORCES_WRITES, WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
+                                      WEIR_ITEMS_BLOCKS},
+    [WEIR_WCSPH_FIRST_STEP] = {WCSPH(first_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(sorted_coordinate) | BIT(sorted_id), BIT(control),
+                           WEIR_ITEMS_ONE},
+};
+
+#define PARTS(dimension)                                                                                     \
+    {                                                                                                        \
+        weir_wgsl_common_uniforms, weir_wgsl_common_index, weir_wgsl_common_##dimension,                     \
+            weir_wgsl_common_state, weir_wgsl_common_cells, weir_wgsl_common_smoothing,                      \
+            weir_wgsl_common_liquid, NULL                                                                    \
+    }
+static const char *const plane_parts[] = PARTS(plane), *const space_parts[] = PARTS(space);
+
+const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension)
+{
+    static const WeirMethodInfo plane = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL,
+                                         plane_parts},
+                                space = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL,
+                                         space_parts};
+    return dimension == 3 ? &space : &plane;
+}
+
+static uint64_t at_least_one(uint64_t count)
+{
+    return count > 0 ? count : 1;
+}
+
+void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world, const WeirWcsphTraits *traits,
+                      uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL])
+{
+    uint64_t count = constants->particle_count, solid_particles = count - constants->first_solid;
+    // The empty slots' cell, and beyond it the count of all.
+    uint64_t cells = weir_padded_cells((uint64_t)constants->cell_count + 1);
+    uint64_t solids = at_least_one(traits->solid_count);
+    sizes[WEIR_WCSPH_parameters] = sizeof(WeirParameters);
+    sizes[WEIR_WCSPH_constants] = sizeof(WeirConstants);
+    sizes[WEIR_WCSPH_solid_table] = solids * sizeof(WeirSolid);
+    sizes[WEIR_WCSPH_flows] = sizeof(WeirWcsphFlows);
+    sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_sorted_coordinate] = 16 * count;
+    sizes[WEIR_WCSPH_motion] = sizes[WEIR_WCSPH_sorted_motion] = 16 * count;
+    sizes[WEIR_WCSPH_id] = sizes[WEIR_WCSPH_sorted_id] = 4 * count;
+    sizes[WEIR_WCSPH_cell_count] = sizes[WEIR_WCSPH_cell_start] = 4 * cells;
+    sizes[WEIR_WCSPH_cell_link] = 4 * (cells + count);
+    sizes[WEIR_WCSPH_block_sum] = 4 * (cells / WEIR_SCAN_BLOCK);
+    sizes[WEIR_WCSPH_kicked] = 32 * (count + solid_particles);
+    sizes[WEIR_WCSPH_solid_state] = 3 * solids * sizeof(WeirSolidState);
+    sizes[WEIR_WCSPH_local_place] = 16 * at_least_one(solid_particles);
+    sizes[WEIR_WCSPH_blocks] = 16 * at_least_one(traits->block_count);
+    sizes[WEIR_WCSPH_solid_sum] = 64 * at_least_one(traits->block_count);
+    sizes[WEIR_WCSPH_motion_rows] = at_least_one(world->motion_count) * sizeof(WeirMotionRow);
+    bool emits = world->emitter_count > 0;
+    sizes[WEIR_WCSPH_vacancy] = emits ? 4 * ((uint64_t)constants->first_solid + world->point_count) : 16;
+    sizes[WEIR_WCSPH_nozzle] = 16 * at_least_one(world->point_count);
+    sizes[WEIR_WCSPH_control] = sizeof(WeirWcsphControl);
+}
+
+uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,
+                             const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH])
+{
+    size_t length = 0;
+#define APPEND(...)                                                                                          \
+    length += (size_t)snprintf(settings + length, WEIR_SETTINGS_LENGTH - length, __VA_ARGS__)
+#define FLAG(name, value) APPEND("const " name " = %s;\n", (value) ? "true" : "false")
+#define NUMBER(name, value) APPEND("const " name " = %uu;\n", value)
+    NUMBER("KERNEL", parameters->kernel);
+    FLAG("TAIT", parameters->equation_of_state == WEIR_EQUATION_TAIT);
+    FLAG("DIFFUSION", parameters->density_diffusion > 0.0f);
+    FLAG("SHIFTING", parameters->shifting > 0.0f);
+    FLAG("LAMINAR", parameters->viscosity > 0.0f);
+    FLAG("ARTIFICIAL", constants->artificial_factor > 0.0f);
+    FLAG("TENSION_CONTROL", parameters->tension_control == WEIR_TENSION_CONTROL_ON);
+    FLAG("FIXED_STEP", parameters->stepping == WEIR_STEPPING_FIXED);
+    FLAG("PERIODIC_X", constants->period_x > 0);
+    FLAG("PERIODIC_Y", constants->period_y > 0);
+    FLAG("PERIODIC_Z", traits->dimension == 3 && constants->period_z > 0);
+    FLAG("HAS_SOLIDS", traits->solid_count > 0);
+    FLAG("MOVING_SOLIDS", traits->moving_solids);
+    FLAG("FREE_SOLIDS", traits->free_solids);
+    FLAG("SLIP_SOLIDS", traits->slip_solids);
+    NUMBER("SOLID_COUNT", traits->solid_count > 0 ? traits->solid_count : 1);
+    NUMBER("BLOCKS", traits->block_count > 0 ? traits->block_count : 1);
+    NUMBER("FREE_BLOCKS", traits->free_block_count);
+    NUMBER("EMITTER_COUNT", traits->emitter_count);
+    NUMBER("DRAIN_COUNT", traits->drain_count);
+#undef NUMBER
+#undef FLAG
+#undef APPEND
+#define PASS(name) (1u << WEIR_WCSPH_##name)
+    uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
+                      PASS(SCATTER) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) | PASS(FORCES_READ) | PASS(FIRST_STEP) |
+                      PASS(HEALTH);
+    if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
+    if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);
+    if (traits->free_solids) needed |= PASS(SOLID_FORCES);
+    needed |= traits->moving_solids ? PASS(SOLIDS) | PASS(KICK) : PASS(TIME_STEP);
+#undef PASS
+    return needed;
+}

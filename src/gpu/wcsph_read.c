@@ -1,0 +1,228 @@
+// From the device to the host: the clock and the particles' health while steps run, and the whole state by id.
+#include "core/solids.h"
+#include "gpu/wcsph.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static double seconds_of(const uint32_t ticks[2])
+{
+    return ((double)ticks[1] * 4294967296.0 + (double)ticks[0]) / 4398046511104.0; // 2^32, 2^42
+}
+
+static float float_of(uint32_t bits)
+{
+    float number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+// ---- Health ----
+
+void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
+    if (!copy) return;
+    uint32_t steps = solver->seen.steps;
+    memcpy(&solver->seen, copy, sizeof solver->seen);
+    const WeirWcsphControl *seen = &solver->seen;
+    if (seen->steps < steps) solver->steps_before += (uint64_t)UINT32_MAX + 1;
+    const WeirConstants *constants = &common->constants;
+    WeirHealth *health = &common->health;
+    health->steps = solver->steps_before + seen->steps;
+    health->time = seconds_of(seen->time);
+    health->time_step = seen->free_dt;
+    health->max_speed = seen->max_speed;
+    health->max_density_error = float_of(seen->error_bits);
+    health->drained_particles = seen->drained;
+    health->lost_particles = seen->lost;
+    health->fluid_particles = solver->fluid_at_start + seen->emitted - seen->drained - seen->lost;
+    if (seen->bad_step == UINT32_MAX) return;
+    health->bad_particles = seen->bad_particles;
+    health->first_bad_step = solver->steps_before + seen->bad_step;
+    health->first_bad_id = seen->bad_id;
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        health->first_bad_position[axis] =
+            constants->origin[axis] + (float)seen->bad_place[axis] * constants->quantum;
+}
+
+// ---- State ----
+
+// The pieces of the copy, one after the other, in the sorted order; of kicked its first half: acceleration, pressure.
+typedef struct Piece {
+    WeirWcsphBuffer name;
+    uint32_t per_particle; // bytes; 0: the whole buffer
+} Piece;
+static const Piece pieces[] = {
+    {WEIR_WCSPH_sorted_coordinate, 16}, {WEIR_WCSPH_sorted_motion, 16}, {WEIR_WCSPH_sorted_id, 4},
+    {WEIR_WCSPH_kicked, 16},            {WEIR_WCSPH_solid_state, 0},    {WEIR_WCSPH_solid_sum, 0},
+    {WEIR_WCSPH_control, 0},
+};
+enum { PIECES = sizeof pieces / sizeof pieces[0] };
+
+static uint64_t piece_size(const Piece *piece, const uint64_t *sizes, uint32_t count)
+{
+    return piece->per_particle > 0 ? (uint64_t)piece->per_particle * count : sizes[piece->name];
+}
+
+uint64_t weir_gpu_wcsph_copy_size(const uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count)
+{
+    uint64_t total = 0;
+    for (int n = 0; n < PIECES; ++n) total += piece_size(&pieces[n], sizes, particle_count);
+    return total;
+}
+
+// After a blow-up: what the sort left in the middle of the bad step is the last good state, and the solids' state
+// before that step.
+static void restore(WeirWcsphGpu *solver, WGPUCommandEncoder encoder)
+{
+    static const WeirWcsphBuffer pairs[][2] = {
+        {WEIR_WCSPH_sorted_coordinate, WEIR_WCSPH_coordinate},
+        {WEIR_WCSPH_sorted_motion, WEIR_WCSPH_motion},
+        {WEIR_WCSPH_sorted_id, WEIR_WCSPH_id},
+    };
+    static const uint32_t one = 1;
+    WeirBuffers *buffers = &solver->common.buffers;
+    for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n)
+        wgpuCommandEncoderCopyBufferToBuffer(encoder, buffers->handle[pairs[n][0]], 0,
+                                             buffers->handle[pairs[n][1]], 0, buffers->size[pairs[n][0]]);
+    if (solver->traits.solid_count > 0)
+        weir_buffers_write(buffers, WEIR_WCSPH_solid_state, solver->host_solids,
+                           solver->traits.solid_count * sizeof *solver->host_solids);
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_control],
+                         offsetof(WeirWcsphControl, restored), &one, sizeof one);
+    solver->restored = true;
+}
+
+void weir_gpu_wcsph_copy_state(WeirGpuSolver *common)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
+    uint32_t count = common->constants.particle_count;
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
+    if (solver->blown_up && !solver->restored) restore(solver, encoder);
+    weir_gpu_wcsph_evaluate(solver, encoder);
+    uint64_t offset = 0;
+    for (int n = 0; n < PIECES; ++n) {
+        uint64_t size = piece_size(&pieces[n], common->buffers.size, count);
+        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[pieces[n].name], offset, size);
+        offset += size;
+    }
+    weir_gpu_submit(common->gpu, encoder, "read");
+}
+
+// The copy's pieces.
+typedef struct View {
+    const int32_t *coordinate; // 4 per particle, like motion and kicked
+    const float *motion;
+    const uint32_t *id;
+    const float *kicked; // acceleration, pressure
+    const WeirSolidState *solids;
+    const float *sums; // 16 per block
+    const WeirWcsphControl *control;
+} View;
+
+static View view_of(const WeirGpuSolver *common, const void *copy)
+{
+    const void *at[PIECES];
+    const char *next = copy;
+    for (int n = 0; n < PIECES; ++n) {
+        at[n] = next;
+        next += piece_size(&pieces[n], common->buffers.size, common->constants.particle_count);
+    }
+    return (View){at[0], at[1], at[2], at[3], at[4], at[5], at[6]};
+}
+
+static void take_solids(WeirWcsphGpu *solver, const View *view)
+{
+    const WeirWcsphTraits *traits = &solver->traits;
+    memcpy(solver->host_solids, view->solids, traits->solid_count * sizeof *solver->host_solids);
+    for (uint32_t n = 0; n < traits->solid_count; ++n) {
+        double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
+        for (uint32_t b = 0; b < traits->block_count; ++b) {
+            if (solver->blocks[b][0] != n) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                force[axis] += (double)view->sums[16 * b + axis];
+                torque[axis] += (double)view->sums[16 * b + 4 + axis];
+            }
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            solver->host_solids[n].force[axis] = (float)force[axis];
+            solver->host_solids[n].torque[axis] = (float)torque[axis];
+        }
+    }
+}
+
+// Own velocity of a solid's particle; the sorted one is mirrored for the fluid.
+static void solid_velocity(const WeirWcsphGpu *solver, uint32_t group, uint32_t id, float velocity[3])
+{
+    const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
+    float place[3], v[3] = {0.0f, 0.0f, 0.0f};
+    if (solid->kind != WEIR_SOLID_FIXED)
+        weir_solid_point(&solver->host_solids[group - WEIR_GROUP_SOLID],
+                         solver->local_place + 4 * (size_t)(id - solver->common.constants.first_solid), place,
+                         v);
+    for (int axis = 0; axis < 3; ++axis) velocity[axis] = v[axis] + solid->surface_velocity[axis];
+}
+
+static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
+{
+    const WeirConstants *constants = &solver->common.constants;
+    uint32_t count = constants->particle_count, dimension = constants->dimension;
+    float *position = solver->host, *velocity = position + (size_t)dimension * count;
+    float *acceleration = velocity + (size_t)dimension * count;
+    float *density = acceleration + (size_t)dimension * count, *pressure = density + count;
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t id = view->id[i], group = (uint32_t)view->coordinate[4 * i + 3];
+        if (id >= count) continue; // only a broken device could do that
+        bool empty = group == WEIR_GROUP_EMPTY, solid = weir_group_is_solid(group);
+        float own[3];
+        memcpy(own, view->motion + 4 * i, sizeof own);
+        if (solid && group - WEIR_GROUP_SOLID < solver->traits.solid_count && id >= constants->first_solid)
+            solid_velocity(solver, group, id, own);
+        for (uint32_t axis = 0; axis < dimension; ++axis) {
+            size_t k = (size_t)dimension * id + axis;
+            position[k] = (float)((double)constants->origin[axis] +
+                                  (double)view->coordinate[4 * i + axis] * (double)constants->quantum);
+            velocity[k] = empty ? 0.0f : own[axis];
+            acceleration[k] = empty ? 0.0f : view->kicked[4 * i + axis];
+        }
+        density[id] = empty ? 0.0f : view->motion[4 * i + 3];
+        pressure[id] = empty ? 0.0f : view->kicked[4 * i + 3];
+        solver->host_group[id] = group;
+    }
+    return (WeirState){
+        .count = count,
+        .dimension = dimension,
+        .step = solver->steps_before + view->control->steps,
+        .position = position,
+        .velocity = velocity,
+        .acceleration = acceleration,
+        .density = density,
+        .pressure = pressure,
+        .group = solver->host_group,
+        .solids = solver->host_solids,
+        .time = seconds_of(view->control->time),
+    };
+}
+
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, const void *copy, WeirState *state)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
+    View view = view_of(common, copy);
+    bool bad = view.control->bad_step != UINT32_MAX;
+    if (bad && !solver->restored) {
+        // Nothing was evaluated: copy again what was good.
+        const WeirSolidState *saved = view.solids + 2 * (size_t)solver->traits.solid_count;
+        memcpy(solver->host_solids, saved, solver->traits.solid_count * sizeof *saved);
+        solver->blown_up = true;
+        return WEIR_PENDING;
+    }
+    take_solids(solver, &view);
+    *state = order_by_id(solver, &view);
+    if (bad) {
+        // The sorted particles are half a step before the end of the bad one.
+        --state->step;
+        state->time -= 0.5 * (double)view.control->last_dt;
+    }
+    return WEIR_OK;
+}
