@@ -13,7 +13,8 @@
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
-fn density_rate(own: vec4i, own_motion: vec4f) -> f32 {
+// `shift_rate`: what shifting adds, drho/dt / rho.
+fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
     let support = f32(1u << constants.coordinate_bits);
     let c = constants.sound_speed;
     // Density by height, per quantum.
@@ -43,7 +44,7 @@ fn density_rate(own: vec4i, own_motion: vec4f) -> f32 {
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;
     let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * c;
-    return own_motion.w * compress * divergence + diffuse * diffusion;
+    return own_motion.w * (compress * divergence + shift_rate) + diffuse * diffusion;
 }
 
 fn check_health(i: u32, speed_squared: f32, rate: f32) {
@@ -60,7 +61,11 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
 
 fn finish_fluid(i: u32, own: vec4i) {
     var own_motion = kicked[i];
-    let rate = density_rate(own, own_motion);
+    var shift = vec4f(0.0);
+    if SHIFTING {
+        shift = kicked[constants.particle_count + i];
+    }
+    let rate = density_rate(own, own_motion, shift.w);
     let velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
@@ -71,7 +76,7 @@ fn finish_fluid(i: u32, own: vec4i) {
     }
     var way = last_half * velocity;
     if SHIFTING && u32(own.w) == GROUP_FLUID {
-        way += control.last_dt * vector_of(kicked[constants.particle_count + i]);
+        way += control.last_dt * vector_of(shift);
     }
     let finished = vec4i(wide_place(moved(place_of(own), way)), own.w);
     let half = control.drift_half;

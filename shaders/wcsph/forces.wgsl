@@ -4,7 +4,7 @@
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
 // in:  sorted_coordinate, sorted_motion, sorted_id, cell_start, solid_state, control
-// out: kicked: new velocity and density; from particle_count on: shifting velocity; from 2 particle_count on, by id:
+// out: kicked: new velocity and density; from particle_count on: shifting velocity and rate; from 2 particle_count on, by id:
 //      two per solid particle, force of the fluid and of contact. cell_link's heads are emptied for the next count.
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and nothing else changes.
 @group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
@@ -110,14 +110,17 @@ fn body_forces(at: Vector, velocity: Vector) -> Vector {
     return sum + select(outward, -outward, constants.tool_kind == TOOL_PULL);
 }
 
-// Particle shifting (Sun et al. 2017), inside the fluid only.
-fn shift_of(sums: Sums) -> Vector {
+// Particle shifting (Sun et al. 2017) of a particle inside the fluid, and in w what it does to the density (2019):
+// drho/dt / rho.
+fn shift_of(sums: Sums) -> vec4f {
     let most = 0.25 * control.max_speed;
-    let factor = -parameters.shifting * 2.0 * constants.smoothing_length * control.max_speed
-        * constants.particle_mass * constants.gradient_factor * constants.quantum;
+    let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
+    let factor = -parameters.shifting * 4.0 * constants.smoothing_length * control.max_speed
+        * gradient;
     let u = factor * (sums.gradient + 0.2 * sums.clustering);
     let speed = length(u);
-    return select(u, u * (most / max(speed, 1e-30)), speed > most);
+    let shift = u * select(1.0, most / max(speed, 1e-30), speed > most);
+    return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
 }
 
 // Own velocity of a particle of a solid, from where it is.
@@ -217,11 +220,13 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     }
     let new_velocity = velocity + select(0.0, control.dt, free) * acceleration;
     kicked[i] = vec4f(wide(new_velocity), own_motion.w);
-    var shift = Vector();
-    if SHIFTING && inside && free {
-        shift = shift_of(sums);
+    if SHIFTING {
+        var shift = vec4f(0.0);
+        if inside {
+            shift = shift_of(sums);
+        }
+        kicked[constants.particle_count + i] = shift;
     }
-    kicked[constants.particle_count + i] = vec4f(wide(shift), 0.0);
     take_speed(dot(new_velocity, new_velocity));
     if free {
         take_acceleration(dot(acceleration, acceleration));

@@ -95,7 +95,8 @@ typedef struct WeirWcsphControl {
     uint32_t drained, lost, emitted, restored;
     uint32_t due[WEIR_WCSPH_MAX_FLOWS][4];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 112 + 16 * WEIR_WCSPH_MAX_FLOWS, "the layout of the shaders' struct");
+static_assert(sizeof(WeirWcsphControl) == 112 + 16 * WEIR_WCSPH_MAX_FLOWS,
+              "the layout of the shaders' struct");
 
 // `struct Flows`.
 typedef struct WeirWcsphFlows {
@@ -110,11 +111,11 @@ static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
 // By dimension: 2, 3.
 const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension);
 // Bytes of each buffer.
-void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world, const WeirWcsphTraits *traits,
-                      uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL]);
+void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world,
+                          const WeirWcsphTraits *traits, uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL]);
 // WGSL constants, and the passes needed, by bit.
 uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,
-                             const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH]);
+                                 const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH]);
 
 typedef struct WeirWcsphGpu {
     WeirGpuSolver common;

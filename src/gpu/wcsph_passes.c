@@ -108,11 +108,10 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
 };
 
 #define PARTS(dimension)                                                                                     \
-    {                                                                                                        \
-        weir_wgsl_common_uniforms, weir_wgsl_common_index, weir_wgsl_common_##dimension,                     \
-            weir_wgsl_common_state, weir_wgsl_common_cells, weir_wgsl_common_smoothing,                      \
-            weir_wgsl_common_liquid, NULL                                                                    \
-    }
+    {weir_wgsl_common_uniforms,    weir_wgsl_common_index,                                                   \
+     weir_wgsl_common_##dimension, weir_wgsl_common_state,                                                   \
+     weir_wgsl_common_cells,       weir_wgsl_common_smoothing,                                               \
+     weir_wgsl_common_liquid,      NULL}
 static const char *const plane_parts[] = PARTS(plane), *const space_parts[] = PARTS(space);
 
 const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension)
@@ -129,8 +128,8 @@ static uint64_t at_least_one(uint64_t count)
     return count > 0 ? count : 1;
 }
 
-void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world, const WeirWcsphTraits *traits,
-                      uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL])
+void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world,
+                          const WeirWcsphTraits *traits, uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL])
 {
     uint64_t count = constants->particle_count, solid_particles = count - constants->first_solid;
     // The empty slots' cell, and beyond it the count of all.
@@ -159,12 +158,11 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
 }
 
 uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,
-                             const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH])
+                                 const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH])
 {
     size_t length = 0;
-#define APPEND(...)                                                                                          \
-    length += (size_t)snprintf(settings + length, WEIR_SETTINGS_LENGTH - length, __VA_ARGS__)
-#define FLAG(name, value) APPEND("const " name " = %s;\n", (value) ? "true" : "false")
+#define APPEND(...)         length += (size_t)snprintf(settings + length, WEIR_SETTINGS_LENGTH - length, __VA_ARGS__)
+#define FLAG(name, value)   APPEND("const " name " = %s;\n", (value) ? "true" : "false")
 #define NUMBER(name, value) APPEND("const " name " = %uu;\n", value)
     NUMBER("KERNEL", parameters->kernel);
     FLAG("TAIT", parameters->equation_of_state == WEIR_EQUATION_TAIT);
@@ -191,8 +189,8 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
 #undef APPEND
 #define PASS(name) (1u << WEIR_WCSPH_##name)
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
-                      PASS(SCATTER) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) | PASS(FORCES_READ) | PASS(FIRST_STEP) |
-                      PASS(HEALTH);
+                      PASS(SCATTER) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) | PASS(FORCES_READ) |
+                      PASS(FIRST_STEP) | PASS(HEALTH);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);

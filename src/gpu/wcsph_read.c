@@ -54,8 +54,12 @@ typedef struct Piece {
     uint32_t per_particle; // bytes; 0: the whole buffer
 } Piece;
 static const Piece pieces[] = {
-    {WEIR_WCSPH_sorted_coordinate, 16}, {WEIR_WCSPH_sorted_motion, 16}, {WEIR_WCSPH_sorted_id, 4},
-    {WEIR_WCSPH_kicked, 16},            {WEIR_WCSPH_solid_state, 0},    {WEIR_WCSPH_solid_sum, 0},
+    {WEIR_WCSPH_sorted_coordinate, 16},
+    {WEIR_WCSPH_sorted_motion, 16},
+    {WEIR_WCSPH_sorted_id, 4},
+    {WEIR_WCSPH_kicked, 16},
+    {WEIR_WCSPH_solid_state, 0},
+    {WEIR_WCSPH_solid_sum, 0},
     {WEIR_WCSPH_control, 0},
 };
 enum { PIECES = sizeof pieces / sizeof pieces[0] };

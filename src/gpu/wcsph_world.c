@@ -50,8 +50,7 @@ static bool make_blocks(WeirWcsphGpu *solver)
 {
     const WeirWorld *world = &solver->world;
     size_t most = 1;
-    for (uint32_t n = 0; n < world->solid_count; ++n)
-        most += world->solids[n].count / WEIR_SOLID_BLOCK + 1;
+    for (uint32_t n = 0; n < world->solid_count; ++n) most += world->solids[n].count / WEIR_SOLID_BLOCK + 1;
     solver->blocks = malloc(most * sizeof *solver->blocks);
     if (!solver->blocks) return false;
     for (uint32_t n = 0; n < world->solid_count; ++n)
@@ -179,8 +178,7 @@ static void set_particle(WeirWcsphGpu *solver, const WeirParticles *particles, u
         state->motion[i][axis] = particles->velocity[k];
     }
     state->coordinate[i][3] = (int32_t)group;
-    state->motion[i][3] =
-        particles->density ? particles->density[i] : solver->common.parameters.rest_density;
+    state->motion[i][3] = particles->density ? particles->density[i] : solver->common.parameters.rest_density;
     state->id[i] = i;
     if (weir_group_is_solid(group))
         set_local_place(solver, particles, i, group);
@@ -239,8 +237,7 @@ bool weir_gpu_wcsph_write_state(WeirWcsphGpu *solver, const WeirParticles *parti
         weir_buffers_write(buffers, WEIR_WCSPH_id, state.id, count * sizeof *state.id);
         size_t solid_particles = count - constants->first_solid;
         if (solid_particles > 0)
-            weir_buffers_write(buffers, WEIR_WCSPH_local_place, solver->local_place,
-                               16 * solid_particles);
+            weir_buffers_write(buffers, WEIR_WCSPH_local_place, solver->local_place, 16 * solid_particles);
     }
     free(state.coordinate);
     free(state.motion);
