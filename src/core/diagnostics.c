@@ -1,5 +1,4 @@
 #include "core/diagnostics.h"
-#include "core/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,21 +14,28 @@ static uint64_t hash_word(uint64_t hash, float value)
 uint64_t weir_state_hash(const WeirState *state)
 {
     uint64_t hash = 0xcbf29ce484222325u;
+    size_t dimension = state->dimension;
     for (size_t i = 0; i < state->count; ++i) {
-        hash = hash_word(hash, state->position[2 * i]);
-        hash = hash_word(hash, state->position[2 * i + 1]);
-        hash = hash_word(hash, state->velocity[2 * i]);
-        hash = hash_word(hash, state->velocity[2 * i + 1]);
+        for (size_t axis = 0; axis < dimension; ++axis)
+            hash = hash_word(hash, state->position[dimension * i + axis]);
+        for (size_t axis = 0; axis < dimension; ++axis)
+            hash = hash_word(hash, state->velocity[dimension * i + axis]);
     }
     return hash;
 }
 
+// Free fluid: not wall, body, empty slot, or on its way out of an emitter.
+static bool is_fluid(const WeirState *state, size_t i)
+{
+    return !state->group || state->group[i] == WEIR_GROUP_FLUID;
+}
+
 // Height above the domain's lowest point along gravity, times g: potential energy per mass.
 static double potential(const WeirParameters *parameters, const WeirConstants *constants,
-                        const float *position)
+                        const float *position, uint32_t dimension)
 {
     double sum = 0.0;
-    for (int axis = 0; axis < 2; ++axis) {
+    for (uint32_t axis = 0; axis < dimension; ++axis) {
         double gravity = parameters->gravity[axis];
         double lowest = gravity < 0.0 ? constants->domain_min[axis] : constants->domain_max[axis];
         sum -= gravity * (position[axis] - lowest);
@@ -37,12 +43,16 @@ static double potential(const WeirParameters *parameters, const WeirConstants *c
     return sum;
 }
 
-static bool is_lost(const WeirConstants *constants, const float *position, const float *velocity)
+// Walls of particles give way a little: a particle of `wcsph` is lost half a spacing beyond the domain, where the
+// first layer of wall lies.
+static bool is_lost(const WeirParameters *parameters, const WeirConstants *constants, const float *position,
+                    const float *velocity, uint32_t dimension)
 {
-    for (int axis = 0; axis < 2; ++axis) {
+    float slack = constants->coordinate_bits > 0 ? 0.5f * parameters->particle_spacing : 0.0f;
+    for (uint32_t axis = 0; axis < dimension; ++axis) {
         // Written so that NaN counts as lost.
-        if (!(position[axis] >= constants->domain_min[axis] &&
-              position[axis] <= constants->domain_max[axis])) {
+        if (!(position[axis] >= constants->domain_min[axis] - slack &&
+              position[axis] <= constants->domain_max[axis] + slack)) {
             return true;
         }
         if (!isfinite(velocity[axis])) return true;
@@ -50,51 +60,132 @@ static bool is_lost(const WeirConstants *constants, const float *position, const
     return false;
 }
 
-// Particles by cell, as indices: heads of lists, one per cell.
-typedef struct CellLists {
-    uint32_t *head, *next; // index + 1, 0 ends a list
-} CellLists;
+// ---- Neighbours ----
 
-static uint64_t neighbors_of(const WeirState *state, const WeirConstants *constants, const CellLists *lists,
-                             float support_radius, uint32_t i)
+// Particles by cell of one support radius, as lists of indices in a hash table: it needs no bounds.
+typedef struct CellTable {
+    uint32_t *head, *next; // index + 1, 0 ends a list
+    uint32_t mask;
+    uint32_t dimension;
+    double radius, origin[3], period[3]; // period 0: none
+    int64_t periods[3];                  // in cells, of the stretched cells below
+    double cell[3];                      // sizes; a whole number of them makes a period
+} CellTable;
+
+static void cell_of(const CellTable *table, const float *position, int64_t cell[3])
 {
-    float x = state->position[2 * i], y = state->position[2 * i + 1], reach = constants->search_radius;
-    uint32_t first_row = weir_grid_row(constants, y - reach), last_row = weir_grid_row(constants, y + reach);
-    uint32_t first = weir_grid_column(constants, x - reach), last = weir_grid_column(constants, x + reach);
-    uint64_t neighbors = 0;
-    for (uint32_t row = first_row; row <= last_row; ++row) {
-        for (uint32_t column = first; column <= last; ++column) {
-            for (uint32_t j = lists->head[row * constants->cell_columns + column]; j;
-                 j = lists->next[j - 1]) {
-                float dx = x - state->position[2 * (j - 1)], dy = y - state->position[2 * (j - 1) + 1];
-                neighbors += j - 1 != i && dx * dx + dy * dy < support_radius * support_radius;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+        double place =
+            axis < table->dimension ? (position[axis] - table->origin[axis]) / table->cell[axis] : 0;
+        cell[axis] = fabs(place) < 1e15 ? (int64_t)floor(place) : 0;
+        if (table->periods[axis]) {
+            cell[axis] %= table->periods[axis];
+            if (cell[axis] < 0) cell[axis] += table->periods[axis];
+        }
+    }
+}
+
+static uint32_t bucket_of(const CellTable *table, const int64_t cell[3])
+{
+    uint64_t hash = (uint64_t)cell[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)cell[1] * 0xc2b2ae3d27d4eb4fu ^
+                    (uint64_t)cell[2] * 0x165667b19e3779f9u;
+    return (uint32_t)(hash >> 29) & table->mask;
+}
+
+static bool is_near(const CellTable *table, const float *a, const float *b)
+{
+    float sum = 0.0f, radius = (float)table->radius;
+    for (uint32_t axis = 0; axis < table->dimension; ++axis) {
+        float d = a[axis] - b[axis];
+        float period = (float)table->period[axis];
+        if (period > 0.0f) d -= period * rintf(d / period);
+        sum += d * d;
+    }
+    return sum < radius * radius;
+}
+
+static uint64_t count_in_cell(const CellTable *table, const WeirState *state, const int64_t cell[3],
+                              uint32_t i)
+{
+    uint64_t count = 0;
+    size_t dimension = table->dimension;
+    for (uint32_t j = table->head[bucket_of(table, cell)]; j; j = table->next[j - 1]) {
+        int64_t other[3];
+        cell_of(table, &state->position[dimension * (j - 1)], other);
+        if (memcmp(other, cell, sizeof other) != 0 || j - 1 == i) continue;
+        count += is_near(table, &state->position[dimension * i], &state->position[dimension * (j - 1)]);
+    }
+    return count;
+}
+
+static uint64_t neighbors_of(const CellTable *table, const WeirState *state, uint32_t i)
+{
+    int64_t center[3], cell[3];
+    uint64_t count = 0;
+    cell_of(table, &state->position[(size_t)table->dimension * i], center);
+    int reach_z = table->dimension == 3 ? 1 : 0;
+    for (int z = -reach_z; z <= reach_z; ++z) {
+        for (int y = -1; y <= 1; ++y) {
+            for (int x = -1; x <= 1; ++x) {
+                const int step[3] = {x, y, z};
+                bool is_new = true; // two cells to a period are one another's neighbours on both sides
+                for (int axis = 0; axis < 3; ++axis) {
+                    int64_t period = table->periods[axis];
+                    if (period > 0 && period < 3 && step[axis] + 1 >= period) is_new = false;
+                    cell[axis] = center[axis] + step[axis];
+                    if (period > 0) cell[axis] = (cell[axis] + period) % period;
+                }
+                if (is_new) count += count_in_cell(table, state, cell, i);
             }
         }
     }
-    return neighbors;
+    return count;
 }
 
+static void start_table(CellTable *table, const WeirParameters *parameters, const WeirConstants *constants)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    table->dimension = constants->dimension;
+    table->radius = parameters->support_radius;
+    for (int axis = 0; axis < 3; ++axis) {
+        table->origin[axis] = constants->domain_min[axis];
+        table->cell[axis] = table->radius * 1.0001; // rounding loses no neighbour
+        if (!periods[axis]) continue;
+        table->period[axis] = (double)constants->domain_max[axis] - constants->domain_min[axis];
+        table->periods[axis] = (int64_t)fmax(1.0, floor(table->period[axis] / table->cell[axis]));
+        table->cell[axis] = table->period[axis] / (double)table->periods[axis];
+    }
+}
+
+// Mean over the fluid of all other particles inside the support: fluid and solid.
 static WeirStatus mean_neighbors(const WeirState *state, const WeirParameters *parameters,
                                  const WeirConstants *constants, double *mean)
 {
-    CellLists lists = {calloc(constants->cell_count, sizeof(uint32_t)),
-                       malloc(state->count * sizeof(uint32_t))};
-    uint64_t sum = 0;
-    if (lists.head && lists.next) {
+    CellTable table = {.mask = 1023};
+    while (table.mask < state->count && table.mask < 0x7FFFFFFFu) table.mask = 2 * table.mask + 1;
+    start_table(&table, parameters, constants);
+    table.head = calloc((size_t)table.mask + 1, sizeof(uint32_t));
+    table.next = malloc(state->count * sizeof(uint32_t));
+    uint64_t sum = 0, fluid = 0;
+    if (table.head && table.next) {
         for (uint32_t i = 0; i < state->count; ++i) {
-            uint32_t cell = weir_grid_row(constants, state->position[2 * i + 1]) * constants->cell_columns +
-                            weir_grid_column(constants, state->position[2 * i]);
-            lists.next[i] = lists.head[cell];
-            lists.head[cell] = i + 1;
+            if (state->group && state->group[i] == WEIR_GROUP_EMPTY) continue;
+            int64_t cell[3];
+            cell_of(&table, &state->position[(size_t)table.dimension * i], cell);
+            uint32_t *head = &table.head[bucket_of(&table, cell)];
+            table.next[i] = *head;
+            *head = i + 1;
         }
         for (uint32_t i = 0; i < state->count; ++i) {
-            sum += neighbors_of(state, constants, &lists, parameters->support_radius, i);
+            if (!is_fluid(state, i)) continue;
+            sum += neighbors_of(&table, state, i);
+            ++fluid;
         }
     }
-    WeirStatus status = lists.head && lists.next ? WEIR_OK : WEIR_ERROR_MEMORY;
-    free(lists.head);
-    free(lists.next);
-    *mean = (double)sum / state->count;
+    WeirStatus status = table.head && table.next ? WEIR_OK : WEIR_ERROR_MEMORY;
+    free(table.head);
+    free(table.next);
+    *mean = fluid > 0 ? (double)sum / (double)fluid : 0.0;
     return status;
 }
 
@@ -102,29 +193,34 @@ WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameter
                          const WeirConstants *constants, bool count_neighbors, WeirDiagnostics *diagnostics)
 {
     double mass = constants->particle_mass, rest_density = parameters->rest_density;
-    double error_sum = 0.0, error_max = 0.0, kinetic = 0.0, height = 0.0, momentum[2] = {0.0, 0.0},
-           speed2_max = 0.0;
-    uint32_t lost = 0;
+    double error_sum = 0.0, error_max = 0.0, kinetic = 0.0, height = 0.0, speed2_max = 0.0;
+    double momentum[3] = {0.0, 0.0, 0.0};
+    uint32_t lost = 0, dimension = state->dimension;
+    size_t fluid = 0;
     for (size_t i = 0; i < state->count; ++i) {
-        const float *position = &state->position[2 * i], *velocity = &state->velocity[2 * i];
-        double vx = velocity[0], vy = velocity[1], speed2 = vx * vx + vy * vy;
+        if (!is_fluid(state, i)) continue;
+        const float *position = &state->position[dimension * i], *velocity = &state->velocity[dimension * i];
+        double speed2 = 0.0;
+        for (uint32_t axis = 0; axis < dimension; ++axis) {
+            speed2 += (double)velocity[axis] * velocity[axis];
+            momentum[axis] += mass * velocity[axis];
+        }
         // Compression only: at a free surface the sum lacks neighbours, which is no error of volume.
         double error = fmax(0.0, state->density[i] / rest_density - 1.0);
         error_sum += error;
         error_max = fmax(error_max, error);
         kinetic += 0.5 * mass * speed2;
-        height += mass * potential(parameters, constants, position);
-        momentum[0] += mass * vx;
-        momentum[1] += mass * vy;
+        height += mass * potential(parameters, constants, position, dimension);
         speed2_max = fmax(speed2_max, speed2);
-        lost += is_lost(constants, position, velocity);
+        lost += is_lost(parameters, constants, position, velocity, dimension);
+        ++fluid;
     }
     *diagnostics = (WeirDiagnostics){
-        .density_error_mean = error_sum / state->count,
+        .density_error_mean = fluid > 0 ? error_sum / (double)fluid : 0.0,
         .density_error_max = error_max,
         .kinetic_energy = kinetic,
         .potential_energy = height,
-        .momentum = {momentum[0], momentum[1], 0.0},
+        .momentum = {momentum[0], momentum[1], momentum[2]},
         .max_speed = sqrt(speed2_max),
         .mean_neighbors = -1.0,
         .lost_particles = lost,

@@ -3,9 +3,10 @@
 
 #include "core/solver.h"
 
-// Fills all but `step` and `time`. Sums run in double, in order of id. WEIR_ERROR_MEMORY only if neighbours
+// Fills all but `step` and `time`. Of free fluid alone: walls, bodies and fluid inside a nozzle do not count, but are
+// neighbours. Sums run in double, in order of id. WEIR_ERROR_MEMORY only if neighbours
 // are to be counted and memory runs out.
 WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameters,
                          const WeirConstants *constants, bool count_neighbors, WeirDiagnostics *diagnostics);
-// FNV-1a over the 32-bit words of x, y, vx, vy, particle by particle.
+// FNV-1a over the 32-bit words of x, y, (z,) vx, vy, (vz,) particle by particle.
 uint64_t weir_state_hash(const WeirState *state);
