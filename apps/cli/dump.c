@@ -69,59 +69,79 @@ bool weir_dump_probe(const char *path, char *message, size_t message_size)
     return true;
 }
 
-static bool write_rows(FILE *file, uint32_t count, const float *position, const float *velocity,
-                       const float *density, const float *pressure)
+static void write_vector(FILE *file, const float *vector, uint32_t dimension)
 {
-    fprintf(file, "id,x,y,vx,vy,density,pressure\n");
-    for (uint32_t i = 0; i < count; ++i) {
-        const float *x = &position[2 * (size_t)i], *v = &velocity[2 * (size_t)i];
-        fprintf(file, "%u,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", i, (double)x[0], (double)x[1], (double)v[0],
-                (double)v[1], (double)density[i], (double)pressure[i]);
+    for (uint32_t axis = 0; axis < dimension; ++axis) fprintf(file, ",%.9g", (double)vector[axis]);
+}
+
+static bool write_rows(FILE *file, const WeirDump *dump)
+{
+    size_t n = dump->count, d = dump->dimension;
+    const float *position = dump->values, *velocity = position + d * n, *density = velocity + d * n;
+    const float *pressure = density + n, *group = pressure + n;
+    fprintf(file, "id,%s,density,pressure%s\n", d == 3 ? "x,y,z,vx,vy,vz" : "x,y,vx,vy",
+            dump->has_group ? ",group" : "");
+    for (size_t i = 0; i < n; ++i) {
+        fprintf(file, "%zu", i);
+        write_vector(file, position + d * i, dump->dimension);
+        write_vector(file, velocity + d * i, dump->dimension);
+        fprintf(file, ",%.9g,%.9g", (double)density[i], (double)pressure[i]);
+        if (dump->has_group) fprintf(file, ",%d", (int)group[i]);
+        fputc('\n', file);
         if (ferror(file)) return false;
     }
     return true;
 }
 
-// Reads the four fields into one allocation of 6 floats per particle; NULL with a message.
-static float *read_fields(WeirSim *sim, char *message, size_t message_size)
+bool weir_dump_take(WeirDump *dump, WeirSim *sim, char *message, size_t message_size)
 {
     static const WeirField fields[] = {WEIR_FIELD_POSITION, WEIR_FIELD_VELOCITY, WEIR_FIELD_DENSITY,
-                                       WEIR_FIELD_PRESSURE};
+                                       WEIR_FIELD_PRESSURE, WEIR_FIELD_GROUP};
     size_t count = weir_sim_particle_count(sim), used = 0;
-    float *values = malloc((6 * count + 1) * sizeof *values);
-    if (!values) {
+    uint32_t dimension = weir_sim_dimension(sim);
+    *dump = (WeirDump){.count = (uint32_t)count,
+                       .dimension = dimension,
+                       .has_group = strcmp(weir_scene_method(weir_sim_scene(sim)), "wcsph") == 0,
+                       .step = weir_sim_step_count(sim),
+                       .time = weir_sim_time(sim)};
+    dump->values = malloc(((2 * dimension + 3) * count + 1) * sizeof *dump->values);
+    if (!dump->values) {
         snprintf(message, message_size, "--dump: memory ran out");
-        return NULL;
+        return false;
     }
-    for (size_t k = 0; k < 4; ++k) {
-        size_t size = count * weir_field_components(fields[k], weir_sim_dimension(sim));
-        if (weir_sim_read(sim, fields[k], values + used, size)) {
+    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; ++k) {
+        size_t size = count * weir_field_components(fields[k], dimension);
+        if (weir_sim_read(sim, fields[k], dump->values + used, size)) {
             snprintf(message, message_size, "--dump: %s", weir_sim_error(sim));
-            free(values);
-            return NULL;
+            weir_dump_free(dump);
+            return false;
         }
         used += size;
     }
-    return values;
+    return true;
+}
+
+void weir_dump_free(WeirDump *dump)
+{
+    free(dump->values);
+    dump->values = NULL;
+}
+
+bool weir_dump_save(const char *path, const WeirDump *dump, char *message, size_t message_size)
+{
+    DumpFile file = {0};
+    if (!dump_open(&file, path, message, message_size)) return false;
+    if (write_rows(file.file, dump) && dump_close(&file)) return true;
+    fail(path, message, message_size);
+    dump_discard(&file);
+    return false;
 }
 
 bool weir_dump_write(const char *path, WeirSim *sim, char *message, size_t message_size)
 {
-    DumpFile dump = {0};
-    uint32_t count = weir_sim_particle_count(sim);
-    float *values = read_fields(sim, message, message_size);
-    if (!values) return false;
-    if (!dump_open(&dump, path, message, message_size)) {
-        free(values);
-        return false;
-    }
-    size_t n = count;
-    bool written = write_rows(dump.file, count, values, values + 2 * n, values + 4 * n, values + 5 * n) &&
-                   dump_close(&dump);
-    free(values);
-    if (!written) {
-        fail(path, message, message_size);
-        dump_discard(&dump);
-    }
+    WeirDump dump;
+    if (!weir_dump_take(&dump, sim, message, message_size)) return false;
+    bool written = weir_dump_save(path, &dump, message, message_size);
+    weir_dump_free(&dump);
     return written;
 }

@@ -9,7 +9,7 @@ enum { MIN_BAR = 6, MAX_BAR = 30 };          // columns
 static const double terminal_interval = 0.1; // s
 static const double line_interval = 1.0;     // s
 
-void weir_progress_begin(WeirProgress *progress, bool enabled, uint64_t steps)
+void weir_progress_begin(WeirProgress *progress, bool enabled, uint64_t steps, double end_time)
 {
     double now = weir_wall_time();
     *progress = (WeirProgress){
@@ -18,6 +18,7 @@ void weir_progress_begin(WeirProgress *progress, bool enabled, uint64_t steps)
         .start = now,
         .last_print = now,
         .steps = steps,
+        .end_time = end_time,
     };
 }
 
@@ -51,12 +52,13 @@ void weir_progress_update(WeirProgress *progress, uint64_t step, double time)
     if (!progress->enabled || now - progress->last_print < interval) return;
     progress->last_print = now;
     double share = progress->steps > 0 ? (double)step / (double)progress->steps : 1.0;
+    if (progress->end_time > 0.0) share = time / progress->end_time;
     double spent = now - progress->start;
-    char left[32] = "?", words[256];
+    char left[32] = "?", words[256], of[32] = "";
     if (step > 0) weir_format_seconds(spent * (1.0 / share - 1.0), left);
-    snprintf(words, sizeof words, " %3.0f %%  step %llu/%llu  time %.4g s  real-time factor %.3g  ETA %s",
-             100.0 * share, (unsigned long long)step, (unsigned long long)progress->steps, time, time / spent,
-             left);
+    if (progress->steps > 0) snprintf(of, sizeof of, "/%llu", (unsigned long long)progress->steps);
+    snprintf(words, sizeof words, " %3.0f %%  step %llu%s  time %.4g s  real-time factor %.3g  ETA %s",
+             100.0 * share, (unsigned long long)step, of, time, time / spent, left);
     if (progress->terminal) {
         draw_bar(share, words);
         progress->drawn = true;

@@ -17,14 +17,29 @@ static double real_time_factor(const WeirReport *report)
     return weir_sim_time(report->sim) / report->wall_time;
 }
 
-static void print_diagnostics(const WeirDiagnostics *found)
+// What wcsph knows of itself: is the fluid nearly incompressible, and where did particles go.
+static void print_clock(const WeirClock *clock)
+{
+    printf("time step      %.4g s is the next one's\n", clock->time_step);
+    printf("Mach number    %.3g (%.4g m/s of %.4g m/s)%s\n", clock->mach_number, clock->max_speed,
+           clock->sound_speed,
+           clock->mach_number > 0.1 ? ": above 0.1, raise expected_speed or sound_speed" : "");
+    printf("density change %.3g %% at most%s\n", 100.0 * clock->max_density_error,
+           clock->max_density_error > 0.03 ? ": above 3 %, raise expected_speed or sound_speed" : "");
+    printf("fluid          %u particles, %u drained, %u left through open sides\n", clock->fluid_particles,
+           clock->drained_particles, clock->lost_particles);
+}
+
+static void print_diagnostics(const WeirDiagnostics *found, uint32_t dimension)
 {
     if (found->mean_neighbors >= 0.0) printf("neighbours     %.1f on average\n", found->mean_neighbors);
     printf("density error  %.3g %% on average, %.3g %% at most\n", 100.0 * found->density_error_mean,
            100.0 * found->density_error_max);
-    printf("energy         %.6g J kinetic, %.6g J potential (per metre of depth)\n", found->kinetic_energy,
-           found->potential_energy);
-    printf("momentum       %.6g, %.6g kg m/s\n", found->momentum[0], found->momentum[1]);
+    printf("energy         %.6g J kinetic, %.6g J potential%s\n", found->kinetic_energy,
+           found->potential_energy, dimension == 2 ? " (per metre of depth)" : "");
+    printf("momentum       %.6g, %.6g", found->momentum[0], found->momentum[1]);
+    if (dimension == 3) printf(", %.6g", found->momentum[2]);
+    printf(" kg m/s\n");
     printf("largest speed  %.4g m/s\n", found->max_speed);
     printf("lost particles %u\n", found->lost_particles);
     printf("state hash     %016llx\n", (unsigned long long)found->state_hash);
@@ -42,17 +57,22 @@ void weir_report_text(const WeirReport *report)
     weir_format_seconds(report->wall_time, wall);
     printf("scene          %s%s%s%s\n", report->scene_path, *weir_scene_title(scene) ? " (" : "",
            weir_scene_title(scene), *weir_scene_title(scene) ? ")" : "");
-    printf("method         %s, %uD, %s\n", weir_scene_method(scene), weir_scene_dimension(scene), search);
+    WeirClock clock = weir_sim_clock(sim);
+    bool has_clock = isfinite(clock.sound_speed);
+    printf("method         %s, %uD%s%s\n", weir_scene_method(scene), weir_scene_dimension(scene),
+           has_clock ? "" : ", ", has_clock ? "" : search);
     printf("device         %s (%s)\n", weir_sim_device(sim), weir_sim_backend(sim));
     printf("particles      %s\n", particles);
-    printf("steps          %s of %.4g s: %.6g s simulated, %s\n", steps, weir_cli_number(scene, "time_step"),
-           weir_sim_time(sim), report->outcome);
+    printf("steps          %s of %.4g s: %.6g s simulated, %s\n", steps,
+           has_clock && step_count > 0 ? clock.time / (double)step_count : clock.time_step, clock.time,
+           report->outcome);
     if (step_count > 0) {
         printf("wall time      %s: real-time factor %.3g, %.4g ms per step, %.3g M particle-steps/s\n", wall,
                real_time_factor(report), 1e3 * report->wall_time / (double)step_count,
                1e-6 * particle_steps_per_second(report));
     }
-    if (report->has_diagnostics) print_diagnostics(&report->diagnostics);
+    if (has_clock) print_clock(&clock);
+    if (report->has_diagnostics) print_diagnostics(&report->diagnostics, weir_scene_dimension(scene));
 }
 
 static json_t *passes_json(const WeirSim *sim)
@@ -91,6 +111,7 @@ bool weir_report_json(const WeirReport *report)
 {
     const WeirSim *sim = report->sim;
     const WeirScene *scene = weir_sim_scene(sim);
+    WeirClock clock = weir_sim_clock(sim);
     char search[32];
     weir_cli_choice_name(scene, "search", search);
     json_t *object = json_object();
@@ -107,7 +128,13 @@ bool weir_report_json(const WeirReport *report)
     json_object_set_new(object, "particles", json_integer(weir_sim_particle_count(sim)));
     json_object_set_new(object, "steps", json_integer((json_int_t)weir_sim_step_count(sim)));
     json_object_set_new(object, "time", weir_json_number(weir_sim_time(sim)));
-    json_object_set_new(object, "time_step", weir_json_float(weir_cli_number(scene, "time_step")));
+    json_object_set_new(object, "time_step", weir_json_float(clock.time_step));
+    json_object_set_new(object, "sound_speed", weir_json_number(clock.sound_speed));
+    json_object_set_new(object, "mach_number", weir_json_number(clock.mach_number));
+    json_object_set_new(object, "max_density_error", weir_json_number(clock.max_density_error));
+    json_object_set_new(object, "fluid_particles", json_integer(clock.fluid_particles));
+    json_object_set_new(object, "drained_particles", json_integer(clock.drained_particles));
+    json_object_set_new(object, "left_particles", json_integer(clock.lost_particles));
     json_object_set_new(object, "stable_time_step", weir_json_number(weir_scene_stable_time_step(scene)));
     json_object_set_new(object, "wall_time", weir_json_number(report->wall_time));
     json_object_set_new(object, "real_time_factor", weir_json_number(real_time_factor(report)));

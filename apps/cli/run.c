@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "dump.h"
 #include "output.h"
+#include "probe_file.h"
 #include "progress.h"
 #include "report.h"
 #include "setup.h"
@@ -12,7 +13,7 @@
 #include <string.h>
 
 typedef struct RunOptions {
-    const char *backend, *search, *dump;
+    const char *backend, *search, *dump, *probe_out;
     WeirCount threads, steps;
     double time;
     WeirTextList set;
@@ -25,7 +26,11 @@ typedef struct Run {
     WeirScene *scene;
     WeirCliBackend backend;
     WeirSim *sim;
-    uint64_t steps;
+    WeirProbes *probes; // NULL: none are to be written
+    WeirDump last_good; // state of a moment ago, if one is to be written
+    double last_good_wall;
+    uint64_t steps;  // to take; of a run by time with adaptive steps, 0
+    double end_time; // of such a run, s
     double wall_time;
     WeirStatus status; // of the steps
     bool interrupted;
@@ -34,6 +39,7 @@ typedef struct Run {
 static const double default_time = 1.0; // s, if neither --steps nor --time is given
 static const double batch_time = 0.05;  // wall s between two looks at the clock and the signal
 static const uint32_t largest_batch = 1u << 20;
+static const double keep_interval = 1.0; // wall s between two copies of the last good state
 
 // The one thing that a signal handler may touch.
 static volatile sig_atomic_t stop_requested;
@@ -53,13 +59,19 @@ static void catch_signals(void)
     sigaction(SIGTERM, &action, NULL);
 }
 
-static uint64_t step_count(const Run *run)
+// Fixed steps of `mueller` are counted beforehand; `wcsph` runs to a time, whatever steps that takes.
+static void plan_length(Run *run)
 {
-    if (run->options.steps.is_set) return run->options.steps.value;
     double seconds = run->options.time > 0.0 ? run->options.time : default_time;
-    double exact = seconds / weir_cli_number(run->scene, "time_step"), whole = round(exact);
-    // The step is a float32: 0.4 s of 0.0008 s are 500 steps and not 501.
-    return (uint64_t)(fabs(exact - whole) <= 1e-6 * exact + 1e-9 ? whole : ceil(exact));
+    if (run->options.steps.is_set) {
+        run->steps = run->options.steps.value;
+    } else if (strcmp(weir_scene_method(run->scene), "wcsph") == 0) {
+        run->end_time = seconds;
+    } else {
+        double exact = seconds / weir_cli_number(run->scene, "time_step"), whole = round(exact);
+        // The step is a float32: 0.4 s of 0.0008 s are 500 steps and not 501.
+        run->steps = (uint64_t)(fabs(exact - whole) <= 1e-6 * exact + 1e-9 ? whole : ceil(exact));
+    }
 }
 
 static bool open_simulation(Run *run, int *exit_status)
@@ -84,30 +96,88 @@ static bool open_simulation(Run *run, int *exit_status)
     return false;
 }
 
+static bool is_done(const Run *run)
+{
+    if (run->end_time > 0.0) return weir_sim_time(run->sim) >= run->end_time * (1.0 - 1e-9);
+    return weir_sim_step_count(run->sim) >= run->steps;
+}
+
+// Steps of a batch: none beyond the run's end, nor beyond a probe's next sample.
+static uint32_t batch_steps(const Run *run, double batch)
+{
+    double left = (double)(run->steps - weir_sim_step_count(run->sim)), steps = fmin(batch, left);
+    if (run->probes) {
+        WeirClock clock = weir_sim_clock(run->sim);
+        double due = ceil((weir_probes_next_time(run->probes) - clock.time) / clock.time_step - 1e-6);
+        steps = fmin(steps, fmax(due, 1.0));
+    }
+    return (uint32_t)fmax(steps, 1.0);
+}
+
+// Takes one batch of about `batch` steps.
+static WeirStatus take_batch(const Run *run, double batch)
+{
+    if (run->end_time > 0.0) {
+        WeirClock clock = weir_sim_clock(run->sim);
+        double until = fmin(clock.time + batch * clock.time_step, run->end_time);
+        if (run->end_time - until < clock.time_step) until = run->end_time;
+        return run->probes ? weir_probes_run_until(run->probes, run->sim, until)
+                           : weir_sim_run_until(run->sim, until);
+    }
+    WeirStatus status = weir_sim_step(run->sim, batch_steps(run, batch));
+    if (!status) status = weir_sim_wait(run->sim);
+    if (!status) status = weir_sim_poll(run->sim);
+    if (!status && run->probes) status = weir_probes_update(run->probes, run->sim);
+    return status;
+}
+
+// Keeps a copy of the state, for the dump of a run that blows up later.
+static void keep_state(Run *run)
+{
+    double now = weir_wall_time();
+    if (!run->options.dump || now - run->last_good_wall < keep_interval) return;
+    char message[256];
+    WeirDump fresh;
+    run->last_good_wall = now;
+    if (!weir_dump_take(&fresh, run->sim, message, sizeof message)) return;
+    weir_dump_free(&run->last_good);
+    run->last_good = fresh;
+}
+
 // Batches of about batch_time: the clock, the terminal and the device's queue are looked at rarely enough to
 // cost nothing, and often enough for Ctrl-C.
 static void advance(Run *run)
 {
     WeirProgress progress;
-    uint64_t done = 0;
     double batch = 1.0, start = weir_wall_time();
-    weir_progress_begin(&progress, !run->options.quiet, run->steps);
-    while (done < run->steps && !stop_requested) {
-        uint64_t left = run->steps - done;
-        uint32_t steps = left < (uint64_t)batch ? (uint32_t)left : (uint32_t)batch;
+    weir_progress_begin(&progress, !run->options.quiet, run->steps, run->end_time);
+    if (run->probes) run->status = weir_probes_update(run->probes, run->sim);
+    while (!run->status && !is_done(run) && !stop_requested) {
         double batch_start = weir_wall_time();
-        run->status = weir_sim_step(run->sim, steps);
-        if (!run->status) run->status = weir_sim_wait(run->sim);
-        if (!run->status) run->status = weir_sim_poll(run->sim);
+        keep_state(run);
+        run->status = take_batch(run, batch);
         run->wall_time = weir_wall_time() - start;
         if (run->status) break;
-        done += steps;
         double growth = batch_time / fmax(weir_wall_time() - batch_start, 1e-6);
-        batch = fmin(fmax(steps * fmin(growth, 4.0), 1.0), largest_batch);
-        weir_progress_update(&progress, done, weir_sim_time(run->sim));
+        batch = fmin(fmax(batch * fmin(growth, 4.0), 1.0), largest_batch);
+        weir_progress_update(&progress, weir_sim_step_count(run->sim), weir_sim_time(run->sim));
     }
-    run->interrupted = !run->status && done < run->steps;
+    run->interrupted = !run->status && !is_done(run);
     weir_progress_end(&progress);
+}
+
+// Writes particles and probes as asked for: those of now or, after a failure, of the last good moment.
+static bool write_outputs(Run *run, char *message, size_t message_size)
+{
+    const RunOptions *options = &run->options;
+    if (options->dump && run->status && run->last_good.values) {
+        if (!weir_dump_save(options->dump, &run->last_good, message, message_size)) return false;
+        fprintf(stderr, "weir run: %s holds the last state that was kept, of step %llu, t = %g s\n",
+                options->dump, (unsigned long long)run->last_good.step, run->last_good.time);
+    } else if (options->dump && !run->status) {
+        if (!weir_dump_write(options->dump, run->sim, message, message_size)) return false;
+    }
+    return !run->probes || weir_probe_file_write(options->probe_out, run->probes, message, message_size);
 }
 
 // The end of a run that began: summary, dump, exit status.
@@ -128,11 +198,14 @@ static int finish(Run *run)
                  report.diagnostics.lost_particles);
     }
     report.error = message;
+    char trouble[512];
     if (*message) {
         fprintf(stderr, "weir run: %s: %s\n", run->scene_path, message);
         exit_status = WEIR_EXIT_FAILED;
-    } else if (run->options.dump && !weir_dump_write(run->options.dump, run->sim, message, sizeof message)) {
-        fprintf(stderr, "weir run: %s\n", message);
+    }
+    if (!write_outputs(run, trouble, sizeof trouble)) {
+        fprintf(stderr, "weir run: %s\n", trouble);
+        if (!*message) report.error = trouble;
         report.outcome = "failed";
         exit_status = WEIR_EXIT_FAILED;
     }
@@ -144,6 +217,21 @@ static int finish(Run *run)
     return exit_status;
 }
 
+static bool open_probes(Run *run, int *exit_status)
+{
+    char message[512] = "memory ran out";
+    run->probes = weir_probes_create(run->sim);
+    if (run->probes && weir_probes_count(run->probes) == 0) {
+        fprintf(stderr, "weir run: --probe-out: %s has no probes\n", run->scene_path);
+        *exit_status = WEIR_EXIT_INPUT;
+        return false;
+    }
+    if (run->probes && weir_probe_file_check(run->options.probe_out, message, sizeof message)) return true;
+    fprintf(stderr, "weir run: %s\n", message);
+    *exit_status = WEIR_EXIT_FAILED;
+    return false;
+}
+
 static int simulate(Run *run)
 {
     int exit_status;
@@ -151,12 +239,13 @@ static int simulate(Run *run)
     run->scene =
         weir_cli_load_scene(run->scene_path, "run", &run->options.set, run->options.search, &exit_status);
     if (!run->scene) return exit_status;
-    run->steps = step_count(run);
+    plan_length(run);
     if (run->options.dump && !weir_dump_probe(run->options.dump, message, sizeof message)) {
         fprintf(stderr, "weir run: %s\n", message);
         return WEIR_EXIT_FAILED;
     }
     if (!open_simulation(run, &exit_status)) return exit_status;
+    if (run->options.probe_out && !open_probes(run, &exit_status)) return exit_status;
     const char *advice = weir_sim_warning(run->sim);
     if (*advice && strcmp(advice, weir_scene_warning(run->scene)) != 0) {
         fprintf(stderr, "weir run: warning: %s\n", advice);
@@ -179,6 +268,8 @@ static int run_command(int argument_count, char **arguments)
     }
     catch_signals();
     exit_status = simulate(&run);
+    weir_probes_destroy(run.probes);
+    weir_dump_free(&run.last_good);
     weir_sim_destroy(run.sim);
     weir_cli_backend_close(&run.backend);
     weir_scene_destroy(run.scene);
@@ -199,7 +290,9 @@ static const WeirOption run_options[] = {
     {"--search", WEIR_OPTION_CHOICE, NULL, "grid|all_pairs", FIELD(search), 0, 0,
      "the same as --set search=..."},
     {"--dump", WEIR_OPTION_TEXT, "FILE.csv", NULL, FIELD(dump), 0, 0,
-     "write id,x,y,vx,vy,density,pressure at the end"},
+     "write id,x,y,vx,vy,density,pressure at the end (wcsph: and group; 3D: and z,vz)"},
+    {"--probe-out", WEIR_OPTION_TEXT, "DIR|FILE.csv", NULL, FIELD(probe_out), 0, 0,
+     "write what the scene's probes measure: a file each into DIR, or all into FILE.csv"},
     {"--json", WEIR_OPTION_FLAG, NULL, NULL, FIELD(json), 0, 0,
      "print one JSON object instead of the summary"},
     {"--quiet", WEIR_OPTION_FLAG, NULL, NULL, FIELD(quiet), 0, 0, "no progress and no summary"},
@@ -211,7 +304,9 @@ const WeirCommand weir_run_command = {
     .summary = "simulates a scene file and says what became of it",
     .notes =
         "Exit status: 0 done, 1 the run failed (blow-up, lost particle, device, full disk), 2 bad input,\n"
-        "130 ended by Ctrl-C, after the summary and the dump of the steps done.",
+        "130 ended by Ctrl-C, after the summary and the dump of the steps done. After a blow-up --dump holds "
+        "the last\n"
+        "state that was kept, a second of wall time before at most.",
     .positional = "SCENE",
     .options = run_options,
     .option_count = sizeof run_options / sizeof run_options[0],

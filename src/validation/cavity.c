@@ -31,8 +31,8 @@ static void plan(WeirValidation *v)
     for (int k = 0; k < FLOWS; ++k) {
         char label[48];
         snprintf(label, sizeof label, "Re %g, L/%g", reynolds[k], cells);
-        WeirCaseRun *run = weir_plan_run(v, label, "validation/lid_cavity/scene.json", weir_case_lid_cavity_scene,
-                                         1.0 / cells, end[v->resolution][k], 0.1);
+        WeirCaseRun *run = weir_plan_run(v, label, "validation/lid_cavity/scene.json",
+                                         weir_case_lid_cavity_scene, 1.0 / cells, end[v->resolution][k], 0.1);
         run->path = "parameters.viscosity";
         run->value = 1000.0 / reynolds[k]; // rho U L / Re
         cavity->speed[k] =
@@ -102,7 +102,8 @@ static void judge(WeirValidation *v)
 
 const WeirCase weir_case_lid_cavity = {
     .info = {"lid_cavity", "Lid-driven cavity, Re 100, 400, 1000",
-             "A lid drives the fluid of a square cavity until its flow is steady: velocities on the two middle lines, "
+             "A lid drives the fluid of a square cavity until its flow is steady: velocities on the two "
+             "middle lines, "
              "averaged over the last 2 s, against the tables.",
              "Ghia, Ghia, Shin, J. Comput. Phys. 48 (1982)"},
     .data_size = sizeof(Cavity),

@@ -25,15 +25,16 @@ static void plan(WeirValidation *v)
     double flat = weir_by_resolution(v, 0.02, 0.01, 0.005), deep = weir_by_resolution(v, 0.04, 0.02, 0.01);
     weir_plan_run(v, "floats, 2D", "validation/floating_box/scene.json", weir_case_floating_box_scene, flat,
                   weir_by_resolution(v, 4.0, 8.0, 8.0), 0.02);
-    weir_plan_run(v, "floats, 3D", "validation/floating_box/scene_3d.json", weir_case_floating_box_scene_3d, deep,
-                  weir_by_resolution(v, 2.0, 6.0, 6.0), 0.02);
+    weir_plan_run(v, "floats, 3D", "validation/floating_box/scene_3d.json", weir_case_floating_box_scene_3d,
+                  deep, weir_by_resolution(v, 2.0, 6.0, 6.0), 0.02);
     weir_plan_run(v, "neutral, 2D", "validation/floating_box/scene_neutral.json",
                   weir_case_floating_box_scene_neutral, flat, 5.0, 0.02);
     data->draught[0] = weir_curve_add(v, "Draught", "2D", "time", "s", "draught", "m", false);
     data->draught[1] = weir_curve_add(v, "Draught", "3D", "time", "s", "draught", "m", false);
     data->drift = weir_curve_add(v, "Drift of the neutral box", "distance from the start in spacings", "time",
                                  "s", "drift", "1", false);
-    uint32_t exact = weir_curve_add(v, "Draught", "density ratio times height", "time", "s", "draught", "m", true);
+    uint32_t exact =
+        weir_curve_add(v, "Draught", "density ratio times height", "time", "s", "draught", "m", true);
     for (int k = 0; k < 2; ++k) weir_curve_push(v, exact, 8.0 * k, density_ratio * box_height[0]);
 }
 
@@ -58,7 +59,8 @@ static void sample(WeirValidation *v, const WeirSample *sample)
         double distance2 = 0.0;
         for (int axis = 0; axis < 3; ++axis) {
             if (sample->time == 0.0) data->start[axis] = center[axis];
-            distance2 += ((double)center[axis] - data->start[axis]) * ((double)center[axis] - data->start[axis]);
+            distance2 +=
+                ((double)center[axis] - data->start[axis]) * ((double)center[axis] - data->start[axis]);
         }
         weir_curve_push(v, data->drift, sample->time,
                         sqrt(distance2) / (double)sample->parameters->particle_spacing);
@@ -71,11 +73,13 @@ static void sample(WeirValidation *v, const WeirSample *sample)
 static void judge(WeirValidation *v)
 {
     const Floating *data = v->data;
-    static const char *const names[2] = {"draught of the floating box, 2D", "draught of the floating box, 3D"};
+    static const char *const names[2] = {"draught of the floating box, 2D",
+                                         "draught of the floating box, 3D"};
     for (int k = 0; k < 2; ++k) {
         double end = v->runs[k].info.end_time;
-        weir_gate_add(v, names[k], "m", WEIR_GATE_RELATIVE, weir_curve_mean(v, data->draught[k], 0.5 * end, end),
-                      density_ratio * box_height[k], weir_limit(v, 0.1, 0.03));
+        weir_gate_add(v, names[k], "m", WEIR_GATE_RELATIVE,
+                      weir_curve_mean(v, data->draught[k], 0.5 * end, end), density_ratio * box_height[k],
+                      weir_limit(v, 0.1, 0.03));
     }
     weir_gate_add(v, "drift of the neutral box in 5 s, in spacings", "1", WEIR_GATE_AT_MOST,
                   weir_curve_max(v, data->drift, 0.0, 5.0), NAN, 1.0);
@@ -83,7 +87,8 @@ static void judge(WeirValidation *v)
 
 const WeirCase weir_case_floating_box = {
     .info = {"floating_box", "Floating and neutral boxes",
-             "A box of half the water's density is let go 20 mm above its place and must float half in, in 2D and 3D; "
+             "A box of half the water's density is let go 20 mm above its place and must float half in, in "
+             "2D and 3D; "
              "a box of the water's density under water must stay. Draughts are means of the second half.",
              "Archimedes"},
     .data_size = sizeof(Floating),

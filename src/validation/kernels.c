@@ -76,7 +76,8 @@ static double lattice_gradient(uint32_t kernel, uint32_t dimension)
 
 static void add_kernel_curve(WeirValidation *v, uint32_t kernel)
 {
-    uint32_t curve = weir_curve_add(v, "Kernels in 2D", kernel_names[kernel], "r / R", "1", "W R^2", "1", false);
+    uint32_t curve =
+        weir_curve_add(v, "Kernels in 2D", kernel_names[kernel], "r / R", "1", "W R^2", "1", false);
     for (int k = 0; k <= 100; ++k) {
         double w = weir_smoothing_value(kernel, 2, support * k / 100.0, support);
         weir_curve_push(v, curve, k / 100.0, w * support * support);
@@ -107,10 +108,11 @@ static void judge_kernels(WeirValidation *v)
 }
 
 const WeirCase weir_case_kernels = {
-    .info = {"kernels", "Smoothing kernels, 1D to 3D",
-             "Every kernel of the library: its integral is 1, its gradient is that of its values, it is nowhere "
-             "negative and ends at its support, and gradients cancel on a lattice.",
-             "definitions"},
+    .info =
+        {"kernels", "Smoothing kernels, 1D to 3D",
+         "Every kernel of the library: its integral is 1, its gradient is that of its values, it is nowhere "
+         "negative and ends at its support, and gradients cancel on a lattice.",
+         "definitions"},
     .judge = judge_kernels,
 };
 
@@ -128,8 +130,8 @@ static void plan_lattice(WeirValidation *v)
     double spacing = weir_by_resolution(v, 0.05, 0.025, 0.0125);
     weir_plan_run(v, "2D", "validation/lattice_density/scene.json", weir_case_lattice_density_scene, spacing,
                   0.0, 1.0);
-    weir_plan_run(v, "3D", "validation/lattice_density/scene_3d.json", weir_case_lattice_density_scene_3d, 0.05,
-                  0.0, 1.0);
+    weir_plan_run(v, "3D", "validation/lattice_density/scene_3d.json", weir_case_lattice_density_scene_3d,
+                  0.05, 0.0, 1.0);
     for (int run = 0; run < LATTICES; ++run) {
         for (int kernel = 0; kernel < KERNELS; ++kernel) lattice->error[run][kernel] = NAN;
     }
@@ -175,15 +177,17 @@ static void judge_lattice(WeirValidation *v)
         for (int kernel = 0; kernel < KERNELS; ++kernel) {
             char name[80];
             snprintf(name, sizeof name, "%s, %s: density less rho0", run ? "3D" : "2D", kernel_names[kernel]);
-            weir_gate_add(v, name, "1", kernel == WEIR_KERNEL_WENDLAND ? WEIR_GATE_AT_MOST : WEIR_GATE_REPORTED,
-                          lattice->error[run][kernel], NAN, kernel == WEIR_KERNEL_WENDLAND ? 0.005 : (double)NAN);
+            weir_gate_add(
+                v, name, "1", kernel == WEIR_KERNEL_WENDLAND ? WEIR_GATE_AT_MOST : WEIR_GATE_REPORTED,
+                lattice->error[run][kernel], NAN, kernel == WEIR_KERNEL_WENDLAND ? 0.005 : (double)NAN);
         }
     }
 }
 
 const WeirCase weir_case_lattice_density = {
     .info = {"lattice_density", "Density of a lattice at rest, 2D and 3D",
-             "The particles that a scene starts with, in a periodic box: the density summed with the solver's kernel "
+             "The particles that a scene starts with, in a periodic box: the density summed with the "
+             "solver's kernel "
              "and mass is the rest density.",
              "definition of the particle mass"},
     .data_size = sizeof(Lattice),

@@ -11,8 +11,8 @@ enum { MAX_ROWS = 24, HEIGHTS = 4, PRESSURES = 4, ARRIVALS = 3 };
 enum { H2 = 1, H4 = 3, P1 = 0 };
 // The gate stands at x = 1.992 m, the water to its right; y is up, z across.
 static const double gate = 1.992, middle = 0.5, water_depth = 0.55, wet = 0.02; // m
-static const double height_places[HEIGHTS] = {0.504, 1.0, 1.496, -0.646};       // from the gate towards the box, m
-static const double box_front = 0.8245;                                         // face towards the water, m
+static const double height_places[HEIGHTS] = {0.504, 1.0, 1.496, -0.646}; // from the gate towards the box, m
+static const double box_front = 0.8245;                                   // face towards the water, m
 static const double pressure_heights[PRESSURES] = {0.021, 0.061, 0.101, 0.141}; // m
 static const double interval = 0.005;                                           // s
 
@@ -140,15 +140,16 @@ static void judge(WeirValidation *v)
                       weir_limit(v, 0.2, 0.03));
     }
     impulses(v, &measured, &reference);
-    weir_gate_add(v, "P1, impulse per area of the first second after impact", "Pa s", WEIR_GATE_RELATIVE, measured,
-                  reference, weir_limit(v, 0.5, 0.1));
+    weir_gate_add(v, "P1, impulse per area of the first second after impact", "Pa s", WEIR_GATE_RELATIVE,
+                  measured, reference, weir_limit(v, 0.5, 0.1));
 }
 
 const WeirCase weir_case_kleefsman = {
-    .info = {"kleefsman", "SPHERIC 2: dam break onto a box, 3D",
-             "Water 0.55 m deep breaks out of a third of a tank and meets a box: water heights, arrivals and the "
-             "pressure on the box against the experiment.",
-             "Kleefsman et al., J. Comput. Phys. 206 (2005), measured at MARIN; SPHERIC test 2"},
+    .info =
+        {"kleefsman", "SPHERIC 2: dam break onto a box, 3D",
+         "Water 0.55 m deep breaks out of a third of a tank and meets a box: water heights, arrivals and the "
+         "pressure on the box against the experiment.",
+         "Kleefsman et al., J. Comput. Phys. 206 (2005), measured at MARIN; SPHERIC test 2"},
     .data_size = sizeof(Kleefsman),
     .plan = plan,
     .sample = sample,

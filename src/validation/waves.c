@@ -126,8 +126,8 @@ static void judge_standing(WeirValidation *v)
         normalise(v, standing->mode[k]);
         normalise(v, standing->energy[k]);
     }
-    weir_gate_add(v, "period, inviscid", "s", WEIR_GATE_RELATIVE, measured_period(v, standing->mode[INVISCID]),
-                  wave_period(), weir_limit(v, 0.03, 0.01));
+    weir_gate_add(v, "period, inviscid", "s", WEIR_GATE_RELATIVE,
+                  measured_period(v, standing->mode[INVISCID]), wave_period(), weir_limit(v, 0.03, 0.01));
     weir_gate_add(v, "energy peaks against the envelope, Re 250, worst of 6", "1", WEIR_GATE_AT_MOST,
                   envelope_error(v, standing->energy[VISCOUS]), NAN, weir_limit(v, 0.4, 0.1));
 }
@@ -159,13 +159,13 @@ static void plan_solitary(WeirValidation *v)
     double spacing = still_depth / weir_by_resolution(v, 12.0, 40.0, 80.0);
     char label[48];
     snprintf(label, sizeof label, "h/%g", still_depth / spacing);
-    weir_plan_run(v, label, "validation/solitary_wave/scene.json", weir_case_solitary_wave_scene, spacing, 3.8,
-                  0.01);
+    weir_plan_run(v, label, "validation/solitary_wave/scene.json", weir_case_solitary_wave_scene, spacing,
+                  3.8, 0.01);
     for (int k = 0; k < GAUGES; ++k) {
         char name[48];
         snprintf(name, sizeof name, "x = %g m", gauges[k]);
-        solitary->surface[k] = weir_curve_add(v, "Surface", name, "time", "s", "surface over still water", "m",
-                                              false);
+        solitary->surface[k] =
+            weir_curve_add(v, "Surface", name, "time", "s", "surface over still water", "m", false);
     }
 }
 
@@ -242,7 +242,8 @@ static void judge_solitary(WeirValidation *v)
 
 const WeirCase weir_case_solitary_wave = {
     .info = {"solitary_wave", "Solitary wave made by a piston",
-             "A piston makes a solitary wave of height 50 mm on water 0.25 m deep: height and speed of its crest, "
+             "A piston makes a solitary wave of height 50 mm on water 0.25 m deep: height and speed of its "
+             "crest, "
              "from gauges at three places, against Boussinesq's theory.",
              "Boussinesq 1872; piston: Goring, thesis, Caltech 1979"},
     .data_size = sizeof(Solitary),

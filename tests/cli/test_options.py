@@ -15,7 +15,7 @@ class Help(WeirTest):
 
     def test_help_of_each_command(self):
         options = {
-            "run": ["--backend", "--threads", "--steps", "--time", "--set", "--search", "--dump", "--json", "--quiet"],
+            "run": ["--backend", "--threads", "--steps", "--time", "--set", "--search", "--dump", "--probe-out", "--json", "--quiet"],
             "validate": ["--backend", "--resolution", "--threads", "--out", "--json", "--list", "--quiet"],
             "bench": ["--counts", "--backends", "--search", "--json", "--csv", "--scene", "--case"],
             "info": ["--json"],

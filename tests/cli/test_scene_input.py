@@ -1,5 +1,6 @@
 """Bad scene files: one clear message with field, value and allowed range, exit status 2, no crash."""
 
+import math
 import os
 import unittest
 
@@ -240,7 +241,10 @@ class Advice(WeirTest):
         self.assertRegex(errors, r"step \d+: the fluid blew up")
         self.assertRegex(errors, r"(try|use) .*\d")
         self.assertIn("failed", output)
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["scene.json"])
+        self.assertRegex(errors, r"dump.csv holds the last state that was kept, of step \d+")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["dump.csv", "scene.json"])
+        for row in dump.read_text().splitlines()[1:]:
+            self.assertTrue(all(math.isfinite(float(cell)) for cell in row.split(",")), row)
 
     def test_no_advice_without_need(self):
         _, errors = self.weir("run", self.scene_file(), "--steps", 1, "--backend", "cpu", "--quiet")
