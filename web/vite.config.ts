@@ -8,19 +8,31 @@ const root = fileURLToPath(new URL('.', import.meta.url));
 const sceneFolder = resolve(root, '../scenes');
 const wasmFile = process.env['WEIR_WASM'] ?? resolve(root, '../build/wasm/apps/web/weir.wasm');
 
-const firstScene = 'water.json'; // what the page opens with
+// What the page opens with, and what comes next in each group.
+const order = ['dam_break_2d', 'floating_bodies', 'water'];
 
-const sceneFiles = (): string[] =>
-  readdirSync(sceneFolder)
-    .filter((name) => name.endsWith('.json'))
-    .sort((a, b) => Number(b === firstScene) - Number(a === firstScene) || (a < b ? -1 : 1));
+type Entry = { name: string; title: string; group: string };
 
-// [{ name, title }], in the order of the keys 1 to 9.
+// Groups of the chooser, in its order.
+const groups = ['2D', '3D', 'Classic (2D)'];
+
+function entryOf(file: string): Entry {
+  const document = JSON.parse(readFileSync(resolve(sceneFolder, file), 'utf8')) as { title?: string; method?: string; dimension?: number };
+  const name = basename(file, '.json');
+  const group = document.method !== 'wcsph' ? 'Classic (2D)' : document.dimension === 3 ? '3D' : '2D';
+  return { name, title: document.title ?? name, group };
+}
+
+const sceneFiles = (): string[] => readdirSync(sceneFolder).filter((name) => name.endsWith('.json'));
+
+// In the order of the keys 1 to 9: by group, the page's first scene first, then those of `order`, then by name.
 function sceneIndex(): string {
-  const list = sceneFiles().map((file) => {
-    const document = JSON.parse(readFileSync(resolve(sceneFolder, file), 'utf8')) as { title?: string };
-    return { name: basename(file, '.json'), title: document.title ?? basename(file, '.json') };
-  });
+  const place = ({ name, group }: Entry): number => {
+    const known = order.indexOf(name);
+    return 1000 * groups.indexOf(group) + (known >= 0 ? known : 999);
+  };
+  const list = sceneFiles().map(entryOf);
+  list.sort((a, b) => place(a) - place(b) || (a.name < b.name ? -1 : 1));
   return JSON.stringify(list);
 }
 

@@ -45,6 +45,11 @@ void weir_view_matrix(const WeirView *view, uint32_t width, uint32_t height, flo
 void weir_view_ray(const WeirView *view, uint32_t width, uint32_t height, float x, float y, float origin[3],
                    float direction[3]);
 
+// How a wall or body (0, 1, ... as in WEIR_FIELD_GROUP - 1) is drawn. Hidden are the domain's own sides, which its
+// outline shows, and in 3D walls around the fluid, which would hide it.
+typedef enum WeirLook { WEIR_LOOK_HIDDEN, WEIR_LOOK_WALL, WEIR_LOOK_BODY } WeirLook;
+WeirLook weir_scene_look(const WeirScene *scene, uint32_t solid);
+
 // Makes the pipelines for a colour target of `format`, a WGPUTextureFormat. NULL only if memory runs out; faults
 // of the shaders show in weir_gpu_poll().
 WeirRenderer *weir_renderer_create(WeirGpu *gpu, uint32_t format);

@@ -80,21 +80,32 @@ WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void
     return check_numbers(flat, sizeof flat / sizeof *flat, message);
 }
 
-// Which walls and bodies are not drawn: the domain's own sides, which its outline shows, and in 3D walls around the
-// fluid, which would hide it.
-static void fill_solids(WeirFrame *frame, const WeirScene *scene)
+// Number of solids before the scene's own walls: the domain's sides are one, if any is a wall.
+static uint32_t first_wall(const WeirScene *scene)
 {
     bool closed = false;
     for (uint32_t axis = 0; axis < scene->dimension; axis++) {
         closed |= !scene->periodic[axis] && !(scene->open[axis][0] && scene->open[axis][1]);
     }
-    uint32_t first_wall = closed ? 1 : 0;
-    if (closed) frame->hidden[0] |= 1u;
-    for (uint32_t wall = 0; scene->dimension == 3 && wall < scene->wall_count; wall++) {
-        uint32_t solid = first_wall + wall;
-        if (scene->wall[wall].inside && solid < 128) frame->hidden[solid / 32] |= 1u << solid % 32;
+    return closed ? 1 : 0;
+}
+
+WeirLook weir_scene_look(const WeirScene *scene, uint32_t solid)
+{
+    uint32_t first = first_wall(scene);
+    if (solid < first) return WEIR_LOOK_HIDDEN;
+    uint32_t wall = solid - first;
+    if (wall >= scene->wall_count) return WEIR_LOOK_BODY;
+    bool around = scene->wall[wall].inside && scene->dimension == 3;
+    return around ? WEIR_LOOK_HIDDEN : WEIR_LOOK_WALL;
+}
+
+static void fill_solids(WeirFrame *frame, const WeirScene *scene)
+{
+    frame->first_body = first_wall(scene) + scene->wall_count;
+    for (uint32_t solid = 0; solid < frame->first_body && solid < 128; solid++) {
+        if (weir_scene_look(scene, solid) == WEIR_LOOK_HIDDEN) frame->hidden[solid / 32] |= 1u << solid % 32;
     }
-    frame->first_body = first_wall + scene->wall_count;
 }
 
 static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParameters *parameters, bool wcsph)

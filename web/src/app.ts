@@ -72,6 +72,7 @@ export class App implements PanelHost {
     this.#lastGood = this.store.document;
     this.pointer = new Pointer(this.#stage, this.camera);
     this.pointer.onRadius = () => this.#panel?.refresh();
+    this.pointer.source = () => this.engine?.fluid() ?? null;
   }
 
   async start(): Promise<void> {
@@ -236,8 +237,13 @@ export class App implements PanelHost {
   #showScene(): void {
     const { scene } = this.store;
     const { view } = this.camera;
-    this.camera.domain = scene.domain;
-    view.particleRadius = 0.5 * (scene.parameter('particle_spacing')[0] ?? 0.01);
+    const space = scene.dimension === 3;
+    if (this.camera.dimension !== scene.dimension || String(Object.values(this.camera.domain)) !== String(Object.values(scene.domain))) {
+      this.camera.setDomain(scene.domain, scene.dimension);
+    }
+    // In 3D a little more than half a spacing, so that the surface looks closed.
+    view.particleRadius = (space ? 0.6 : 0.5) * (scene.parameter('particle_spacing')[0] ?? 0.01);
+    document.body.classList.toggle('space', space);
     chooseRange(view, scene, this.store.document);
     this.#legend.update(this.weir, view);
     element('title').textContent = scene.title;
@@ -248,7 +254,8 @@ export class App implements PanelHost {
   }
 
   #stepIsTooLarge(): boolean {
-    return (this.store.scene.parameter('time_step')[0] ?? 0) > this.store.derived.stableTimeStep;
+    const adaptive = this.store.scene.method === 'wcsph' && this.store.scene.parameter('stepping')[0] === 0;
+    return !adaptive && (this.store.scene.parameter('time_step')[0] ?? 0) > this.store.derived.stableTimeStep;
   }
 
   #warn(): void {
@@ -265,6 +272,9 @@ export class App implements PanelHost {
   }
   get colorBy(): ColorBy {
     return this.camera.view.colorBy;
+  }
+  method(): string {
+    return this.store.scene.method;
   }
   parameter(name: string): number[] {
     return this.store.scene.parameter(name);
@@ -366,6 +376,7 @@ export class App implements PanelHost {
     const right = this.#panelShown && !narrow ? panelWidth + 20 : 20;
     const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 };
     camera.fit(insets);
+    if (camera.dimension === 3) return;
     // A wide domain goes below the heading's words, a tall one beside them.
     const keys = element('keys');
     const heading = element('heading').offsetTop + keys.offsetTop + keys.offsetHeight + 10;
@@ -380,6 +391,14 @@ export class App implements PanelHost {
       r: () => this.restart(),
       h: () => this.togglePanel(),
       p: () => this.plot.show(!this.plot.visible),
+      v: () => this.camera.home(),
+      '+': () => this.#zoom(1.15),
+      '=': () => this.#zoom(1.15),
+      '-': () => this.#zoom(1 / 1.15),
+      arrowleft: () => this.#turn(-1, 0),
+      arrowright: () => this.#turn(1, 0),
+      arrowup: () => this.#turn(0, 1),
+      arrowdown: () => this.#turn(0, -1),
       digit: (digit) => {
         const entry = this.scenes[digit - 1];
         if (entry) void this.loadScene(entry.name);
@@ -399,6 +418,14 @@ export class App implements PanelHost {
       const file = event.dataTransfer?.files[0];
       if (file) void file.text().then((text) => this.loadText(text, file.name));
     });
+  }
+
+  #zoom(factor: number): void {
+    if (this.camera.dimension === 3) this.camera.zoom(factor);
+  }
+
+  #turn(right: number, up: number): void {
+    if (this.camera.dimension === 3) this.camera.orbit(-24 * right, 24 * up);
   }
 
   readonly #frame = (now: number): void => {

@@ -3,7 +3,7 @@ import { diagnoseInterval, type Snapshot, type Tool } from './engine.ts';
 import { Pace } from './pace.ts';
 import { floatsPerParticle } from './points.ts';
 import type { SceneDocument } from './scene_document.ts';
-import { ColorBy, Field, type Diagnostics, type Sim, type Weir } from './weir.ts';
+import { ColorBy, Field, Look, type Clock, type Diagnostics, type Scene, type Sim, type Weir } from './weir.ts';
 
 export type CpuFrame = {
   steps: number; // taken
@@ -11,7 +11,19 @@ export type CpuFrame = {
   time: number;
   stepMs: number;
   diagnostics: Diagnostics | null; // a new one now and then
+  clock: Clock | null; // wcsph only
 };
+
+// The looks of walls and bodies by number, as PointsFrame has them.
+function looksOf(scene: Scene, document: SceneDocument): number[] {
+  const most = 1 + (document.walls?.length ?? 0) + (document.bodies?.length ?? 0);
+  let bodies = 0;
+  return Array.from({ length: most }, (_, solid) => {
+    const look = scene.look(solid);
+    if (look === Look.hidden) return -1;
+    return look === Look.wall ? 1 : 2 + bodies++;
+  });
+}
 
 export class CpuRunner {
   readonly #weir: Weir;
@@ -20,7 +32,9 @@ export class CpuRunner {
   #timeOffset = 0; // a run that goes on from a snapshot keeps its clock
   #stepOffset = 0;
   #diagnosed = 0;
-  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null };
+  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null };
+  #looks: number[] = [];
+  #wcsph = false;
 
   constructor(weir: Weir) {
     this.#weir = weir;
@@ -33,18 +47,27 @@ export class CpuRunner {
     return this.#sim?.particleCount ?? 0;
   }
 
+  get dimension(): number {
+    return this.#sim?.dimension ?? 2;
+  }
+  get fluidSlots(): number {
+    return this.#sim?.fluidSlots ?? 0;
+  }
+
   start(document: SceneDocument, from: Snapshot | null): void {
     const scene = this.#weir.loadScene(document);
     let sim: Sim | null = null;
     try {
       sim = this.#weir.createSim(scene, { maxSteps: this.#pace.maxSteps });
-      if (from && from.positions.length === 2 * sim.particleCount) {
+      if (from && from.positions.length === sim.dimension * sim.particleCount) {
         sim.setState(from.positions, from.velocities);
         this.#timeOffset = from.time;
         this.#stepOffset = from.steps;
       } else {
         this.#timeOffset = this.#stepOffset = 0;
       }
+      this.#looks = looksOf(scene, document);
+      this.#wcsph = scene.method === 'wcsph';
     } catch (error) {
       sim?.destroy();
       throw error;
@@ -63,7 +86,7 @@ export class CpuRunner {
     const sim = this.#sim;
     frame.diagnostics = null;
     if (!sim) return frame;
-    sim.setTool(tool.kind, tool.x, tool.y, tool.vx, tool.vy, tool.radius, tool.strength);
+    sim.setTool(tool.kind, tool.position, tool.velocity, tool.radius, tool.strength);
     sim.setMaxSteps(this.#pace.maxSteps);
     const begin = performance.now();
     frame.steps = sim.advance(wallSeconds);
@@ -73,6 +96,7 @@ export class CpuRunner {
     frame.stepCount = sim.stepCount + this.#stepOffset;
     frame.time = sim.time + this.#timeOffset;
     frame.stepMs = this.#pace.stepMs;
+    frame.clock = this.#wcsph ? sim.clock() : null;
     if (end - this.#diagnosed > diagnoseInterval(sim.particleCount)) {
       frame.diagnostics = sim.diagnose(false);
       this.#diagnosed = end;
@@ -81,14 +105,21 @@ export class CpuRunner {
   }
 
   #fill(sim: Sim, colorBy: ColorBy, values: Float32Array): void {
-    const count = sim.particleCount;
-    if (values.length !== floatsPerParticle * count) return;
+    const { particleCount: count, dimension } = sim;
+    if (values.length !== floatsPerParticle(dimension) * count) return;
     const position = sim.read(Field.position);
     if (position) values.set(position, 0);
     const velocity = sim.read(Field.velocity);
-    if (velocity) values.set(velocity, 2 * count);
+    if (velocity) values.set(velocity, dimension * count);
     const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
-    if (scalar) values.set(scalar, 4 * count);
+    if (scalar) values.set(scalar, 2 * dimension * count);
+    const looks = values.subarray((2 * dimension + 1) * count);
+    const group = this.#wcsph ? sim.read(Field.group) : null;
+    if (!group) return void looks.fill(0);
+    for (let i = 0; i < count; i++) {
+      const number = group[i] as number;
+      looks[i] = number <= 0 ? number : (this.#looks[number - 1] ?? 1);
+    }
   }
 
   step(count: number): void {

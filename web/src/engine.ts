@@ -1,19 +1,18 @@
 // The contract between the page and whatever moves and draws the fluid: WebGPU here, C in a worker, C on this thread.
 import type { SceneDocument } from './scene_document.ts';
-import { ToolKind, type Diagnostics, type PassTime, type View } from './weir.ts';
+import type { PickSource } from './pick.ts';
+import { ToolKind, type Clock, type Diagnostics, type PassTime, type Triple, type View } from './weir.ts';
 
 // The pointer's tool, as weir_sim_set_tool() takes it.
 export type Tool = {
   kind: ToolKind;
-  x: number; // m
-  y: number;
-  vx: number; // m/s
-  vy: number;
+  position: Triple; // m
+  velocity: Triple; // m/s
   radius: number; // m
   strength: number;
 };
 
-// Positions and velocities to go on from: x0, y0, x1, y1, ...
+// Positions and velocities to go on from: x0, y0, (z0,) x1, ...
 export type Snapshot = { positions: Float32Array; velocities: Float32Array; time: number; steps: number };
 
 // What an engine tells while it runs; one object, changed in place.
@@ -26,6 +25,7 @@ export type EngineStats = {
   stepMs: number; // milliseconds per step, averaged
   passes: PassTime[]; // empty where the device gives no times
   diagnostics: Diagnostics | null;
+  clock: Clock | null; // wcsph only
   memory: number; // bytes; 0: not known
 };
 
@@ -50,12 +50,14 @@ export interface Engine {
   // `scene`: the whole document with that change, for engines that may have to start it again.
   setParameter(name: string, values: number[], scene: SceneDocument): void;
   snapshot(): Snapshot | null; // the last one known
+  fluid(): PickSource | null; // where it is, as far as known: 3D only
   destroy(): void;
 }
 
 export function newStats(): EngineStats {
   return {
-    particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, memory: 0,
+    particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, clock: null,
+    memory: 0,
   };
 }
 

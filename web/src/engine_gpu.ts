@@ -3,12 +3,14 @@
 import {
   diagnoseInterval, newStats, type Engine, type EngineStats, type FaultHandler, type Snapshot, type Tool,
 } from './engine.ts';
+import type { PickSource } from './pick.ts';
 import { Pace } from './pace.ts';
 import type { SceneDocument } from './scene_document.ts';
-import { Field, Status, WeirError, type Gpu, type Renderer, type Sim, type View, type Weir } from './weir.ts';
+import { Field, Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
 const framesInFlight = 2;
 const snapshotMs = 1000;
+const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
 
@@ -53,6 +55,8 @@ export class GpuEngine implements Engine {
   #positions = new Float32Array(0);
   #velocities = new Float32Array(0);
   #snapshot: Snapshot | null = null;
+  #pick: PickSource | null = null;
+  #wcsph = false;
   #timed = 0;
   #timeOffset = 0;
   #stepOffset = 0;
@@ -102,7 +106,7 @@ export class GpuEngine implements Engine {
       throw new Error('the engine was closed');
     }
     this.#timeOffset = this.#stepOffset = 0;
-    if (from && from.positions.length === 2 * next.particleCount) {
+    if (from && from.positions.length === next.dimension * next.particleCount) {
       next.setState(from.positions, from.velocities);
       this.#timeOffset = from.time;
       this.#stepOffset = from.steps;
@@ -117,10 +121,17 @@ export class GpuEngine implements Engine {
     this.#diagnosing = false;
     this.stats.particles = next.particleCount;
     this.stats.diagnostics = null;
+    this.stats.clock = null;
     this.stats.passes = [];
   }
 
   // The run before stays until the new one is there; where memory is too short for both, it has to go first.
+  #noteScene(scene: Scene): void {
+    const { min, max } = scene.domain;
+    this.#wcsph = scene.method === 'wcsph';
+    this.#pick = { positions: this.#positions, count: 0, radius: 1.2 * (scene.parameter('particle_spacing')[0] ?? 0.01), min, max };
+  }
+
   async #create(document: SceneDocument): Promise<Sim> {
     const scene = this.#weir.loadScene(document);
     let sim: Sim | null = null;
@@ -128,6 +139,7 @@ export class GpuEngine implements Engine {
       sim = this.#weir.createSim(scene, { gpu: this.gpu, maxSteps: this.#pace.maxSteps });
       while (sim.poll() === Status.pending) await new Promise((resolve) => setTimeout(resolve, 5));
       if (sim.status !== Status.ok) throw new WeirError(sim.status, sim.error);
+      this.#noteScene(scene);
       return sim;
     } catch (error) {
       sim?.destroy();
@@ -144,7 +156,7 @@ export class GpuEngine implements Engine {
     this.#owedWall += wallSeconds;
     if (!this.#poll(sim) || this.#inFlight >= framesInFlight) return;
     try {
-      sim.setTool(tool.kind, tool.x, tool.y, tool.vx, tool.vy, tool.radius, tool.strength);
+      sim.setTool(tool.kind, tool.position, tool.velocity, tool.radius, tool.strength);
       sim.setMaxSteps(this.#pace.maxSteps);
       const steps = this.#stopped ? 0 : sim.advance(this.#owedWall);
       this.#owedWall = 0;
@@ -178,6 +190,7 @@ export class GpuEngine implements Engine {
     if (!this.#sim || this.#destroyed) return;
     this.stats.steps = this.#sim.stepCount + this.#stepOffset;
     this.stats.time = this.#sim.time + this.#timeOffset;
+    if (this.#wcsph) this.stats.clock = this.#sim.clock();
   };
 
   readonly #notDone = (error: Error): void => {
@@ -229,7 +242,7 @@ export class GpuEngine implements Engine {
   // Positions, then velocities of a moment later: near enough to go on from after a loss.
   #takeSnapshot(sim: Sim, now: number): void {
     if (this.#snapshotPhase === 'idle') {
-      if (now - this.#snapshotAt < Math.max(snapshotMs, 5 * diagnoseInterval(sim.particleCount))) return;
+      if (now - this.#snapshotAt < Math.max(sim.dimension === 3 ? pickMs : snapshotMs, 5 * diagnoseInterval(sim.particleCount))) return;
       this.#snapshotPhase = 'positions';
     }
     if (this.#snapshotPhase === 'positions') {
@@ -237,6 +250,7 @@ export class GpuEngine implements Engine {
       if (!positions) return;
       if (this.#positions.length !== positions.length) this.#positions = new Float32Array(positions.length);
       this.#positions.set(positions);
+      if (this.#pick) Object.assign(this.#pick, { positions: this.#positions, count: sim.fluidSlots });
       this.#snapshotPhase = 'velocities';
     }
     const velocities = sim.read(Field.velocity);
@@ -282,6 +296,9 @@ export class GpuEngine implements Engine {
   }
   snapshot(): Snapshot | null {
     return this.#snapshot;
+  }
+  fluid(): PickSource | null {
+    return this.#sim?.dimension === 3 && this.#pick && this.#pick.count > 0 ? this.#pick : null;
   }
   destroy(): void {
     this.#destroyed = true;

@@ -2,6 +2,7 @@
 import { CpuRunner } from './cpu_runner.ts';
 import { type Engine, type EngineStats, type FaultHandler, type Snapshot, type Tool } from './engine.ts';
 import { CpuPicture } from './engine_cpu.ts';
+import type { PickSource } from './pick.ts';
 import { floatsPerParticle } from './points.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { Status, WeirError, type View, type Weir } from './weir.ts';
@@ -31,8 +32,9 @@ export class MainEngine implements Engine {
 
   async start(scene: SceneDocument, from: Snapshot | null): Promise<void> {
     this.#runner.start(scene, from);
-    this.#picture.setScene(scene, this.#runner.particles);
-    this.#values = new Float32Array(floatsPerParticle * this.#runner.particles);
+    const { particles, dimension, fluidSlots } = this.#runner;
+    this.#picture.setScene(scene, particles, fluidSlots);
+    this.#values = new Float32Array(floatsPerParticle(dimension) * particles);
     this.#stopped = false;
   }
 
@@ -48,6 +50,7 @@ export class MainEngine implements Engine {
       this.stats.steps = frame.stepCount;
       this.stats.time = frame.time;
       this.stats.stepMs = frame.stepMs;
+      this.stats.clock = frame.clock;
       if (frame.diagnostics) this.stats.diagnostics = frame.diagnostics;
       this.#picture.setValues(this.#values);
     } catch (error) {
@@ -69,6 +72,9 @@ export class MainEngine implements Engine {
   }
   snapshot(): Snapshot | null {
     return this.#picture.snapshot();
+  }
+  fluid(): PickSource | null {
+    return this.#picture.fluid();
   }
   destroy(): void {
     this.#runner.destroy();

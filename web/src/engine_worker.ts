@@ -2,6 +2,7 @@
 // with the worker. A worker that dies is replaced once; the second death is a fault.
 import { newStats, type Engine, type EngineStats, type FaultHandler, type Snapshot, type Tool } from './engine.ts';
 import { CpuPicture } from './engine_cpu.ts';
+import type { PickSource } from './pick.ts';
 import { floatsPerParticle } from './points.ts';
 import type { SceneDocument } from './scene_document.ts';
 import type { FromWorker, ToWorker } from './worker_protocol.ts';
@@ -43,7 +44,7 @@ export class WorkerEngine implements Engine {
     this.#picture = new CpuPicture(weir, canvas);
     this.stats = this.#picture.stats;
     this.#onFault = onFault;
-    const tool: Tool = { kind: 0, x: 0, y: 0, vx: 0, vy: 0, radius: 0, strength: 0 };
+    const tool: Tool = { kind: 0, position: [0, 0, 0], velocity: [0, 0, 0], radius: 0, strength: 0 };
     this.#frameMessage = { type: 'frame', run: 0, wallSeconds: 0, budgetMs: 12, tool, colorBy: 0, buffer: new ArrayBuffer(0) };
     this.worker = this.#spawn();
   }
@@ -79,7 +80,7 @@ export class WorkerEngine implements Engine {
       return;
     }
     if (message.run !== this.#run && message.type !== 'fault') return; // of an earlier scene
-    if (message.type === 'started') this.#started(message.particles, message.device);
+    if (message.type === 'started') this.#started(message);
     if (message.type === 'refused') {
       this.#run = this.#frameMessage.run; // the scene before goes on
       this.#waiting?.reject(new WeirError(message.status, message.message));
@@ -92,14 +93,14 @@ export class WorkerEngine implements Engine {
     }
   }
 
-  #started(particles: number, device: string): void {
+  #started({ particles, device, fluidSlots, dimension }: Extract<FromWorker, { type: 'started' }>): void {
     const waiting = this.#waiting;
     if (!waiting) return;
     this.#scene = waiting.scene;
     this.device = `${device}, in a worker, drawn by ${this.#picture.renderer.name}`;
-    this.#picture.setScene(waiting.scene, particles);
+    this.#picture.setScene(waiting.scene, particles, fluidSlots);
     this.#front = null;
-    this.#back = new ArrayBuffer(4 * floatsPerParticle * particles);
+    this.#back = new ArrayBuffer(4 * floatsPerParticle(dimension) * particles);
     this.#asked = 0;
     this.#stopped = false;
     this.#frameMessage.run = this.#run;
@@ -117,6 +118,7 @@ export class WorkerEngine implements Engine {
     stats.steps = message.stepCount;
     stats.time = message.time;
     stats.stepMs = message.stepMs;
+    stats.clock = message.clock;
     if (message.diagnostics) stats.diagnostics = message.diagnostics;
     this.#picture.setValues(new Float32Array(message.buffer));
     if (message.busyMs > busyEnoughMs && this.#wallSince > 0) this.#ask();
@@ -183,6 +185,9 @@ export class WorkerEngine implements Engine {
   }
   snapshot(): Snapshot | null {
     return this.#picture.snapshot();
+  }
+  fluid(): PickSource | null {
+    return this.#picture.fluid();
   }
   destroy(): void {
     this.#destroyed = true;

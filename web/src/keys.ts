@@ -11,7 +11,8 @@ export function onKeys(keys: Keys): void {
     if (target instanceof HTMLButtonElement && event.key === ' ') return;
     if (/^[1-9]$/.test(event.key)) return keys.digit(Number(event.key));
     const action = keys[event.key.toLowerCase()];
-    if (!action || event.key.length > 1) return;
+    if (!action || (event.key.length > 1 && !event.key.startsWith('Arrow'))) return;
+    if (target instanceof HTMLInputElement && event.key.startsWith('Arrow')) return; // a slider's own
     event.preventDefault();
     (action as () => void)();
   });

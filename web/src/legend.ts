@@ -17,27 +17,40 @@ const captions: Record<ColorBy, string> = {
   [ColorBy.pressure]: 'Pressure, kPa',
 };
 
+const size = (vector: unknown): number => (Array.isArray(vector) ? Math.hypot(...vector.filter(Number.isFinite)) : 0);
+
+// The largest speed that the document itself names: of fluid thrown, moving walls, emitters.
+function namedSpeed(document: SceneDocument): number {
+  const fluid = (document.fluid ?? []).map((piece) => Math.max(size(piece.velocity), piece.flow === 'taylor_green' ? (piece.flow_rate ?? 0) : 0));
+  const walls = (document.walls ?? []).map((wall) => Math.max(size(wall.surface_velocity), size(wall.motion?.velocity)));
+  const emitters = (document.emitters ?? []).map((emitter) => emitter.speed ?? 0);
+  return Math.max(0, ...fluid, ...walls, ...emitters);
+}
+
 // Sets colorMin and colorMax from what the scene can be expected to do.
 export function chooseRange(view: View, scene: Scene, document: SceneDocument): void {
   const { min, max } = scene.domain;
+  const wcsph = scene.method === 'wcsph';
   const height = Math.max((max[1] ?? 1) - (min[1] ?? 0), 1e-9);
   const gravity = Math.hypot(...scene.parameter('gravity'));
   const restDensity = scene.parameter('rest_density')[0] ?? 1000;
-  const stiffness = scene.parameter('gas_constant')[0] ?? 2000;
-  const thrown = Math.max(0, ...(document.fluid ?? []).map((piece) => Math.hypot(...(piece.velocity ?? [0]))));
+  const stiffness = wcsph ? 0 : (scene.parameter('gas_constant')[0] ?? 2000);
+  const named = namedSpeed(document);
   const fall = Math.sqrt(2 * gravity * height);
   view.colorMin = 0;
-  if (view.colorBy === ColorBy.speed) view.colorMax = niceCeil(Math.max(0.55 * fall, thrown, 0.1));
+  if (view.colorBy === ColorBy.speed) view.colorMax = niceCeil(Math.max((wcsph ? 0.7 : 0.55) * fall, named, 0.1));
   if (view.colorBy === ColorBy.density) {
-    view.colorMin = 0.9 * restDensity;
-    view.colorMax = 1.1 * restDensity;
+    view.colorMin = (wcsph ? 0.98 : 0.9) * restDensity;
+    view.colorMax = (wcsph ? 1.02 : 1.1) * restDensity;
   }
   if (view.colorBy === ColorBy.densityError) {
-    view.colorMin = -0.1;
-    view.colorMax = 0.1;
+    view.colorMax = wcsph ? 0.02 : 0.1;
+    view.colorMin = -view.colorMax;
   }
   if (view.colorBy === ColorBy.pressure) {
-    view.colorMax = niceCeil(restDensity * Math.max(gravity * height, 0.5 * thrown * thrown, 0.002 * stiffness));
+    view.colorMin = wcsph ? (scene.parameter('background_pressure')[0] ?? 0) : 0;
+    const range = restDensity * Math.max(gravity * height, 0.5 * named * named, 0.002 * stiffness);
+    view.colorMax = view.colorMin + niceCeil(Math.max(range, 1));
   }
 }
 

@@ -1,5 +1,6 @@
 // The panel, made from the engine's own parameter list. It shows what the scene holds; a change goes to the app, and
 // if that refuses, the control goes back.
+import type { BindingApi } from '@tweakpane/core';
 import { Pane, type FolderApi } from 'tweakpane';
 import { colorNames } from './legend.ts';
 import type { ToolName, ToolSettings } from './pointer.ts';
@@ -15,6 +16,7 @@ export interface PanelHost {
   backend: Backend;
   tool: ToolSettings;
   colorBy: ColorBy;
+  method(): string;
   parameter(name: string): number[];
   particles(): number;
   mostParticles(): number;
@@ -30,6 +32,22 @@ export interface PanelHost {
 }
 
 type Point = { x: number; y: number };
+
+// Puts the list's options under headings, one for each run of equal groups; options beyond the groups stay as they are.
+function groupOptions(list: BindingApi, groups: string[]): void {
+  const options = [...list.element.querySelectorAll('option')];
+  let heading: HTMLOptGroupElement | null = null;
+  groups.forEach((group, n) => {
+    const option = options[n];
+    if (!option) return;
+    if (heading?.label !== group) {
+      heading = document.createElement('optgroup');
+      heading.label = group;
+      option.before(heading);
+    }
+    heading.append(option);
+  });
+}
 
 // Shown apart from the method's own parameters.
 const speedName = 'time_scale';
@@ -65,9 +83,10 @@ export class Panel {
 
   #addScene(folder: FolderApi): void {
     const host = this.#host;
-    const entries = Object.fromEntries(host.scenes.map((scene, n) => [`${n + 1}  ${scene.title}`, scene.name]));
-    this.#addList(folder, 'scene', { ...entries, '…': '' }, () => (host.scenes.some((s) => s.name === host.sceneName) ? host.sceneName : ''),
+    const entries = Object.fromEntries(host.scenes.map((scene, n) => [n < 9 ? `${n + 1}  ${scene.title}` : scene.title, scene.name]));
+    const list = this.#addList(folder, 'scene', { ...entries, '…': '' }, () => (host.scenes.some((s) => s.name === host.sceneName) ? host.sceneName : ''),
       (name) => (name ? host.loadScene(name) : this.refresh()), 'What the fluid is and where it starts. Drop a scene file onto the page to see your own.');
+    groupOptions(list, host.scenes.map((scene) => scene.group));
     const range = { low: 500, high: 50_000, log: true, fromZero: false };
     this.#addNumber(folder, 'particles', range, () => host.particles(), (count) => host.setParticles(count),
       'About so many: particle spacing, support radius and time step change together. Restarts the scene.', () => host.mostParticles());
@@ -84,9 +103,9 @@ export class Panel {
   #addTool(folder: FolderApi): void {
     const { tool } = this.#host;
     this.#addList(folder, 'tool', { push: 'push', pull: 'pull', stir: 'stir' }, () => tool.tool, (name) => (tool.tool = name as ToolName),
-      'What the left button or a finger does. Right button: pull; Shift: stir; Ctrl: push.');
+      'What the left button or a finger does. 2D: right button pull, Shift stir, Ctrl push. 3D: on the fluid; Alt stir, Ctrl push.');
     this.#addNumber(folder, 'radius', { low: 0.02, high: 0.6, log: true, fromZero: false }, () => tool.radius,
-      (radius) => (this.#host.setRadius(radius), true), 'Of the tool, in metres. Also by the wheel.');
+      (radius) => (this.#host.setRadius(radius), true), 'Of the tool, in metres. Also by the wheel (3D: with Ctrl).');
     this.#addNumber(folder, 'strength', { low: 0.1, high: 10, log: true, fromZero: false }, () => tool.strength,
       (strength) => strength > 0 && strength <= 100 && ((tool.strength = strength), true), 'Of the tool; 1 is the usual one.');
   }
@@ -100,31 +119,37 @@ export class Panel {
     for (const info of this.#host.parameters) {
       if (info.name !== speedName) this.#addParameter(folder, info, words(info.name));
     }
-    folder.addButton({ title: 'Use the stable time step' }).on('click', () => this.#host.useStableStep());
+    const stable = folder.addButton({ title: 'Use the stable time step' });
+    stable.on('click', () => this.#host.useStableStep());
+    this.#refreshers.push(() => (stable.hidden = this.#host.method() !== 'mueller'));
   }
 
+  // A parameter that only one method reads is shown with that method only.
   #addParameter(folder: FolderApi, info: ParameterInfo, label: string): void {
+    const binding = this.#bindParameter(folder, info, label);
+    if (info.method) this.#refreshers.push(() => (binding.hidden = info.method !== this.#host.method()));
+  }
+
+  #bindParameter(folder: FolderApi, info: ParameterInfo, label: string): BindingApi {
     const host = this.#host;
     const restart = info.live ? '' : ' A change restarts the scene.';
     const unit = info.unit === '1' ? '' : ` in ${info.unit}`;
     const help = `${info.help}${unit} [${info.minimum} to ${info.maximum}]${restart}`;
     if (info.kind === 'choice') {
       const names = Object.fromEntries(info.choices.map((name) => [words(name), name]));
-      this.#addList(folder, label, names, () => info.choices[host.parameter(info.name)[0] ?? 0] ?? '',
+      return this.#addList(folder, label, names, () => info.choices[host.parameter(info.name)[0] ?? 0] ?? '',
         (name) => host.setParameter(info.name, String(name)) || this.refresh(), `${info.help}${restart}`);
-    } else if (info.kind === 'vector') {
-      this.#addVector(folder, info, label, help);
-    } else {
-      const usual = host.parameter(info.name)[0] ?? info.default[0] ?? 1;
-      const range = sliderRange(usual > 0 ? usual : (info.default[0] ?? 1), info.minimum, info.maximum);
-      this.#addNumber(folder, label, range, () => host.parameter(info.name)[0] ?? 0,
-        (value) => host.setParameter(info.name, value), help);
     }
+    if (info.kind === 'vector') return this.#addVector(folder, info, label, help);
+    const usual = host.parameter(info.name)[0] ?? info.default[0] ?? 1;
+    const range = sliderRange(usual > 0 ? usual : (info.default[0] ?? 1), info.minimum, info.maximum);
+    return this.#addNumber(folder, label, range, () => host.parameter(info.name)[0] ?? 0,
+      (value) => host.setParameter(info.name, value), help);
   }
 
   #addList<T extends string | number>(
     folder: FolderApi, label: string, options: Record<string, T>, get: () => T, set: (value: T) => void, help: string,
-  ): void {
+  ): BindingApi {
     const state = { value: get() };
     const binding = folder.addBinding(state, 'value', { label, options });
     binding.element.title = help;
@@ -136,12 +161,13 @@ export class Panel {
       state.value = get();
       binding.refresh();
     });
+    return binding;
   }
 
   #addNumber(
     folder: FolderApi, label: string, range: SliderRange, get: () => number, set: (value: number) => boolean, help: string,
     most?: () => number,
-  ): void {
+  ): BindingApi {
     const state = { value: get() };
     const format = (value: number): string => String(Number.isInteger(value) ? value : Number(value.toPrecision(4)));
     const binding = folder.addBinding(state, 'value', { label, format, pointerScale: Math.max(state.value, range.low) / 100 });
@@ -161,9 +187,10 @@ export class Panel {
       binding.refresh();
       moveKnob(state.value);
     });
+    return binding;
   }
 
-  #addVector(folder: FolderApi, info: ParameterInfo, label: string, help: string): void {
+  #addVector(folder: FolderApi, info: ParameterInfo, label: string, help: string): BindingApi {
     const get = (): Point => {
       const [x = 0, y = 0] = this.#host.parameter(info.name);
       return { x, y };
@@ -180,5 +207,6 @@ export class Panel {
       state.value = get();
       binding.refresh();
     });
+    return binding;
   }
 }

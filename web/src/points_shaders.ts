@@ -4,8 +4,8 @@ const frame = `#version 300 es
 precision highp float;
 precision highp int;
 uniform vec2 center, size, domain_min, domain_max, tool_position;
-uniform float tool_radius, tool_pressed, color_min, color_scale, pixels_per_meter, particle_radius, body_radius,
-    line_scale, rest_density;
+uniform float tool_radius, tool_pressed, color_min, color_scale, pixels_per_meter, particle_radius, water_radius,
+    border, line_scale, rest_density;
 uniform int color_by;
 vec2 to_pixels(vec2 point) {
   return (point - center) * pixels_per_meter * vec2(1.0, -1.0) + 0.5 * size;
@@ -14,15 +14,17 @@ vec4 to_clip(vec2 pixel) { return vec4((pixel / size * 2.0 - 1.0) * vec2(1.0, -1
 vec2 square_corner(int index) { return vec2(float(index & 1), float(index >> 1)) * 2.0 - 1.0; }
 float domain_distance(vec2 pixel) {
   vec2 low = to_pixels(domain_min), high = to_pixels(domain_max);
-  vec2 outside = abs(pixel - 0.5 * (low + high)) - 0.5 * abs(high - low) - particle_radius;
+  vec2 outside = abs(pixel - 0.5 * (low + high)) - 0.5 * abs(high - low) - border;
   return length(max(outside, vec2(0.0))) + min(max(outside.x, outside.y), 0.0);
 }
 `;
 
-const particleInputs = `
-layout(location = 0) in vec2 position;
-layout(location = 1) in vec2 velocity;
+// A particle's look: -1 not drawn, 0 fluid, 1 wall, 2 and more bodies. `vector` is vec2 or vec3.
+export const particleInputs = (vector: string): string => `
+layout(location = 0) in ${vector} position;
+layout(location = 1) in ${vector} velocity;
 layout(location = 2) in float scalar; // density or pressure
+layout(location = 3) in float look;
 uniform sampler2D color_maps; // one row of 256 colours per map
 float color_value() {
   float value = scalar;
@@ -31,24 +33,34 @@ float color_value() {
   return clamp((value - color_min) * color_scale, 0.0, 1.0);
 }
 vec3 color_map(float t) { return texelFetch(color_maps, ivec2(int(t * 255.0 + 0.5), color_by), 0).rgb; }
+vec3 particle_color() {
+  if (look < 0.5) return color_map(color_value());
+  if (look < 1.5) return vec3(0.34, 0.40, 0.50);
+  int body = int(look - 1.5) % 4;
+  return body == 0 ? vec3(0.93, 0.66, 0.36) : body == 1 ? vec3(0.88, 0.47, 0.38)
+      : body == 2 ? vec3(0.60, 0.72, 0.46) : vec3(0.78, 0.55, 0.70);
+}
 `;
 
 // Fragment shaders see y down, as WGSL does.
-const pixel = `
+export const pixel = `
 out vec4 target;
 vec2 place() { return vec2(gl_FragCoord.x, size.y - gl_FragCoord.y); }
+`;
+
+export const noise = `
+float pixel_noise(uvec2 at) {
+  uint state = (at.x + at.y * 65537u) * 747796405u + 2891336453u;
+  state = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return float(((state >> 22u) ^ state) & 0xffffu) / 65535.0;
+}
 `;
 
 const background = {
   vertex: `${frame}
 void main() { gl_Position = vec4(float(gl_VertexID & 1) * 4.0 - 1.0, float(gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }`,
   fragment: `${frame}${pixel}
-float pixel_noise(uvec2 at) {
-  uint state = (at.x + at.y * 65537u) * 747796405u + 2891336453u;
-  state = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return float((state >> 22u) ^ state & 0xffffu) / 65535.0;
-}
-void main() {
+${noise}void main() {
   vec2 uv = place() / size, from_middle = (uv - 0.5) * 2.0;
   float vignette = 1.0 - 0.38 * smoothstep(0.3, 2.1, dot(from_middle, from_middle));
   vec3 outside = mix(vec3(0.031, 0.045, 0.078), vec3(0.016, 0.023, 0.043), uv.y);
@@ -61,17 +73,19 @@ void main() {
 }`,
 };
 
-const body = {
-  vertex: `${frame}${particleInputs}
+const water = {
+  vertex: `${frame}${particleInputs('vec2')}
 out vec2 offset;
 flat out vec3 color;
 flat out vec2 glow;
 void main() {
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // outside of the picture
+  if (look < -0.5 || look > 0.5) return;
   float t = color_value(), strength = smoothstep(0.45, 1.0, t), spread = 1.0 + 0.9 * strength;
-  float radius = body_radius * spread;
+  float radius = water_radius * spread;
   vec2 middle = to_pixels(position);
-  vec2 low = to_pixels(vec2(domain_min.x, domain_max.y)) - particle_radius;
-  vec2 high = to_pixels(vec2(domain_max.x, domain_min.y)) + particle_radius;
+  vec2 low = to_pixels(vec2(domain_min.x, domain_max.y)) - border;
+  vec2 high = to_pixels(vec2(domain_max.x, domain_min.y)) + border;
   vec2 corner = clamp(middle + square_corner(gl_VertexID) * radius, low, high);
   gl_Position = to_clip(corner);
   offset = (corner - middle) / radius;
@@ -92,13 +106,15 @@ void main() {
 };
 
 const particles = {
-  vertex: `${frame}${particleInputs}
+  vertex: `${frame}${particleInputs('vec2')}
 out vec2 offset;
 flat out vec3 color;
 void main() {
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (look < -0.5) return;
   offset = square_corner(gl_VertexID) * max(particle_radius + 0.5, 1.5);
   gl_Position = to_clip(to_pixels(position) + offset);
-  color = color_map(color_value());
+  color = particle_color();
 }`,
   fragment: `${frame}${pixel}
 in vec2 offset;
@@ -121,10 +137,8 @@ void main() {
 }`,
 };
 
-// Outline and ring in one pass over the window: the fallback draws few enough pixels elsewhere.
-const overlay = {
-  vertex: background.vertex,
-  fragment: `${frame}${pixel}
+// Of the domain's outline and the tool's ring.
+export const lines = `
 const vec3 line_color = vec3(0.38, 0.66, 0.95), ring_color = vec3(0.62, 0.90, 1.00);
 float line_coverage(float distance, float width) {
   return clamp(0.5 * width + 0.5 - abs(distance), 0.0, 1.0) * min(width, 1.0);
@@ -133,26 +147,31 @@ float line_glow(float distance) {
   float near = max(1.0 - abs(distance) / (14.0 * line_scale), 0.0);
   return near * near * near;
 }
-vec4 outline() {
-  float distance = domain_distance(place());
-  float alpha = 0.75 * line_coverage(distance, 1.25 * line_scale);
-  return vec4(line_color * alpha + line_color * 0.10 * line_glow(distance), alpha);
-}
-vec4 ring() {
-  float distance = length(place() - to_pixels(tool_position)) - tool_radius;
+vec4 ring(vec2 middle, float radius) {
+  float distance = length(place() - middle) - radius;
   float alpha = mix(0.55, 0.95, tool_pressed) * line_coverage(distance, 1.5 * line_scale);
-  float part = clamp(1.0 + distance / max(tool_radius, 1.0), 0.0, 1.0);
+  float part = clamp(1.0 + distance / max(radius, 1.0), 0.0, 1.0);
   float fill = mix(0.015, 0.11, tool_pressed) * part * part * clamp(0.5 - distance, 0.0, 1.0);
   float light = mix(0.12, 0.38, tool_pressed) * line_glow(distance) + fill;
   return vec4(ring_color * (alpha + light), alpha);
 }
+`;
+
+// Outline and ring in one pass over the window: the fallback draws few enough pixels elsewhere.
+const overlay = {
+  vertex: background.vertex,
+  fragment: `${frame}${pixel}${lines}vec4 outline() {
+  float distance = domain_distance(place());
+  float alpha = 0.75 * line_coverage(distance, 1.25 * line_scale);
+  return vec4(line_color * alpha + line_color * 0.10 * line_glow(distance), alpha);
+}
 void main() {
   vec4 under = outline();
   if (tool_radius <= 0.0) { target = under; return; }
-  vec4 over = ring();
+  vec4 over = ring(to_pixels(tool_position), tool_radius);
   target = over + under * (1.0 - over.a);
 }`,
 };
 
-export const shaders = { background, body, particles, overlay };
-export type EffectName = keyof typeof shaders;
+// In the order in which they are drawn.
+export const flatShaders = { background, water, particles, overlay };

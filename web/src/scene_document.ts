@@ -5,11 +5,16 @@ export type ParameterValue = number | number[] | string;
 export type SceneDocument = {
   title?: string;
   parameters?: Record<string, ParameterValue>;
-  fluid?: { velocity?: number[] }[];
+  method?: string;
+  dimension?: number;
+  fluid?: { velocity?: number[]; flow?: string; flow_rate?: number }[];
+  walls?: { surface_velocity?: number[]; motion?: { velocity?: number[] } }[];
+  bodies?: unknown[];
+  emitters?: { speed?: number }[];
   [key: string]: unknown;
 };
 
-export type SceneEntry = { name: string; title: string };
+export type SceneEntry = { name: string; title: string; group: string };
 
 async function fetchJson(url: string | URL): Promise<unknown> {
   let response: Response;

@@ -50,7 +50,7 @@ export class SceneStore {
     let particles = this.derived.particles;
     // The lattice does not fill a piece of fluid exactly: the second round mends most of it.
     for (let round = 0; round < 3 && particles > 0 && Math.abs(particles / count - 1) > 0.005; round++) {
-      const next = this.#scaled(document, Math.sqrt(particles / count));
+      const next = this.#scaled(document, (particles / count) ** (1 / this.scene.dimension));
       const scene = this.#weir.loadScene(next);
       const made = scene.particleCount;
       if (made === 0) {

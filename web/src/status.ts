@@ -1,5 +1,5 @@
 // The status line: what runs, where, how fast and how true. Averages over about a second, written four times a second.
-import type { Engine } from './engine.ts';
+import type { Engine, EngineStats } from './engine.ts';
 import { formatCount, formatNumber } from './format.ts';
 
 const windowMs = 1000;
@@ -49,23 +49,37 @@ export class StatusLine {
     this.#write(engine, paused);
   }
 
+  // What tells whether the numbers are to be trusted.
+  #methodCells({ clock, diagnostics }: EngineStats): HTMLElement[] {
+    if (!clock) {
+      return [
+        cell(formatNumber(this.stepsPerFrame, 2), 'steps/frame'),
+        cell(diagnostics ? `${formatNumber(100 * diagnostics.densityErrorMean, 2)} %` : '–', 'density error'),
+      ];
+    }
+    const { timeStep, machNumber, maxDensityError } = clock;
+    return [
+      cell(`${formatNumber(1000 * timeStep, 3)} ms`, 'time step'),
+      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : ''),
+      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : ''),
+    ];
+  }
+
   #write(engine: Engine, paused: boolean): void {
     const { stats } = engine;
-    const { diagnostics } = stats;
     const cells = [
-      cell(formatCount(stats.particles), 'particles'),
+      cell(formatCount(stats.clock?.fluidParticles || stats.particles), 'particles'),
       cell(this.fps < 10 ? formatNumber(this.fps, 2) : String(Math.round(this.fps)), 'FPS'),
       paused
         ? cell('paused', `at ${stats.time.toFixed(3)} s`)
         : cell(`${this.realTimeFactor.toFixed(2)}×`, 'real time', this.realTimeFactor < 0.5 ? 'slow' : ''),
-      cell(formatNumber(this.stepsPerFrame, 2), 'steps/frame'),
-      cell(diagnostics ? `${formatNumber(100 * diagnostics.densityErrorMean, 2)} %` : '–', 'density error'),
+      ...this.#methodCells(stats),
       cell(solverName(engine), ''),
     ];
     this.#numbers.replaceChildren(...cells);
     const passes = stats.passes.map((pass) => `${pass.name} ${formatNumber(pass.milliseconds, 2)}`);
     const timing = passes.length > 0 ? `ms per pass: ${passes.join(' · ')}` : `${formatNumber(stats.stepMs, 2)} ms per step`;
-    this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${stats.time.toFixed(1)} s simulated`;
+    this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${formatNumber(this.stepsPerFrame, 2)} steps per frame   ·   ${stats.time.toFixed(2)} s simulated`;
   }
 }
 

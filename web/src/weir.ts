@@ -20,7 +20,7 @@ export type ParameterInfo = {
   live: boolean;
 };
 
-export const enum Field { position = 0, velocity = 1, acceleration = 2, density = 3, pressure = 4 }
+export const enum Field { position = 0, velocity = 1, acceleration = 2, density = 3, pressure = 4, group = 5 }
 export const enum ToolKind { none = 0, push = 1, pull = 2, stir = 3 }
 export const enum ColorBy { speed = 0, density = 1, densityError = 2, pressure = 3 }
 
@@ -31,7 +31,7 @@ export type Diagnostics = {
   densityErrorMax: number;
   kineticEnergy: number;
   potentialEnergy: number;
-  momentum: [number, number, number];
+  momentum: Triple;
   maxSpeed: number;
   meanNeighbors: number; // negative if not asked for
   lostParticles: number;
@@ -40,23 +40,58 @@ export type Diagnostics = {
 
 export type PassTime = { name: string; milliseconds: number };
 
+// What the simulation knows of itself without reading particles; `mueller` knows step and time only. As WeirClock in
+// weir/weir.h.
+export type Clock = {
+  step: number;
+  time: number;
+  timeStep: number; // s, of the next step
+  soundSpeed: number;
+  maxSpeed: number;
+  machNumber: number;
+  maxDensityError: number;
+  fluidParticles: number;
+  drainedParticles: number;
+  lostParticles: number;
+};
+
+export type Triple = [number, number, number];
+
+// The camera of a simulation in 3D; angles in radians.
+export type CameraPose = {
+  target: Triple; // m, what it looks at
+  yaw: number; // 0: along -z
+  pitch: number;
+  distance: number; // m, from the target
+  fieldOfView: number; // of the picture's height
+  shift: [number, number]; // where the target appears: 0, 0 in the middle, 1, 1 at the top right
+};
+
 // What one frame shows; as WeirView in weir/weir_render.h.
 export type View = {
   colorBy: ColorBy;
   colorMin: number;
   colorMax: number;
-  center: [number, number]; // m
-  pixelsPerMeter: number; // device pixels
   particleRadius: number; // m
-  toolPosition: [number, number]; // m
+  toolPosition: Triple; // m
   toolRadius: number; // m; 0: no ring
   toolPressed: number; // 0 to 1
+  center: [number, number]; // 2D: m
+  pixelsPerMeter: number; // 2D: device pixels
+  camera: CameraPose; // 3D
 };
+
+// How a wall or body is drawn.
+export const enum Look { hidden = 0, wall = 1, body = 2 }
+
+export type Ray = { origin: Triple; direction: Triple };
 
 // What the objects below share.
 type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly webgpu: WebGpuImports; weir: Weir };
 
 const DIAGNOSTIC_COUNT = 14;
+const CLOCK_COUNT = 10;
+const VIEW_FLOATS = 21; // weir_web_renderer_draw()
 const MAX_PASSES = 32;
 const LONGEST_PATH = 255; // as in the native loader: no path of a scene is as long
 
@@ -130,6 +165,29 @@ export class Weir {
     return memory.scratch(256 * 3, (at) => {
       c.weir_web_color_map(colorBy, at);
       return memory.bytes.slice(at, at + 256 * 3);
+    });
+  }
+
+  // The camera of a view in 3D as a matrix, column by column, for a picture of that size.
+  viewMatrix(view: View, width: number, height: number): Float32Array {
+    const { memory, c } = this.#context;
+    return memory.scratch(4 * (VIEW_FLOATS + 16), (at) => {
+      writeView(memory.floats(at, VIEW_FLOATS), view);
+      const matrix = at + 4 * VIEW_FLOATS;
+      c.weir_web_view_matrix(at, width, height, matrix);
+      return memory.floats(matrix, 16).slice();
+    });
+  }
+
+  // The ray from its camera through a pixel, y down.
+  viewRay(view: View, width: number, height: number, x: number, y: number): Ray {
+    const { memory, c } = this.#context;
+    return memory.scratch(4 * (VIEW_FLOATS + 6), (at) => {
+      writeView(memory.floats(at, VIEW_FLOATS), view);
+      const ray = at + 4 * VIEW_FLOATS;
+      c.weir_web_view_ray(at, width, height, x, y, ray);
+      const found = memory.floats(ray, 6);
+      return { origin: triple(found, 0), direction: triple(found, 3) };
     });
   }
 
@@ -247,12 +305,17 @@ export class Scene {
     return this.#context.c.weir_scene_stable_time_step(this.pointer);
   }
 
+  // Of wall or body 0, 1, ...
+  look(solid: number): Look {
+    return this.#context.c.weir_scene_look(this.pointer, solid);
+  }
+
   // Advice of the last check().
   get warning(): string {
     return this.#context.memory.text(this.#context.c.weir_scene_warning(this.pointer));
   }
 
-  get domain(): { min: [number, number, number]; max: [number, number, number] } {
+  get domain(): { min: Triple; max: Triple } {
     const { memory, c } = this.#context;
     return memory.scratch(48, (at) => {
       c.weir_web_scene_domain(this.pointer, at);
@@ -353,6 +416,8 @@ type FieldBlock = { at: number; view: Float32Array };
 export class Sim {
   readonly pointer: number; // WeirSim in wasm memory
   readonly particleCount: number;
+  readonly fluidSlots: number; // ids below are fluid or empty slots, the others walls and bodies
+  readonly dimension: number;
   readonly backend: string; // "cpu" or "gpu"
   readonly #context: Context;
   readonly #fields: (FieldBlock | undefined)[] = [];
@@ -371,6 +436,8 @@ export class Sim {
     this.pointer = c.weir_web_sim_create(scene.pointer, backend, options.maxSteps ?? 0, options.maxLag ?? 0);
     if (this.pointer === 0) throw new WeirError(Status.memory, OUT_OF_MEMORY);
     this.particleCount = c.weir_sim_particle_count(this.pointer) >>> 0;
+    this.fluidSlots = c.weir_sim_fluid_slots(this.pointer) >>> 0;
+    this.dimension = scene.dimension;
     this.backend = memory.text(c.weir_sim_backend(this.pointer));
     const status = this.status;
     if (status === Status.ok || status === Status.pending) return;
@@ -441,10 +508,10 @@ export class Sim {
     this.#throwIf(memory.withText(name, set));
   }
 
-  // x, y per particle, by id.
+  // x, y (and z in 3D) per particle, by id.
   setState(positions: Float32Array, velocities: Float32Array): void {
     const { memory, c } = this.#context;
-    const wanted = 2 * this.particleCount;
+    const wanted = this.dimension * this.particleCount;
     if (positions.length !== wanted || velocities.length !== wanted)
       throw new WeirError(Status.input,
         `state: has ${positions.length} and ${velocities.length} numbers; must have ${wanted} each`);
@@ -457,15 +524,30 @@ export class Sim {
     this.#throwIf(status);
   }
 
-  setTool(kind: ToolKind, x: number, y: number, vx: number, vy: number, radius: number, strength: number): void {
-    this.#throwIf(this.#context.c.weir_web_sim_set_tool(this.pointer, kind, x, y, vx, vy, radius, strength));
+  setTool(kind: ToolKind, position: Readonly<Triple>, velocity: Readonly<Triple>, radius: number, strength: number): void {
+    const [x, y, z] = position;
+    const [vx, vy, vz] = velocity;
+    this.#throwIf(this.#context.c.weir_web_sim_set_tool(this.pointer, kind, x, y, z, vx, vy, vz, radius, strength));
+  }
+
+  clock(): Clock {
+    const { memory, c } = this.#context;
+    return memory.scratch(8 * CLOCK_COUNT, (at) => {
+      c.weir_web_sim_clock(this.pointer, at);
+      const [step, time, timeStep, soundSpeed, maxSpeed, machNumber, maxDensityError, fluidParticles,
+        drainedParticles, lostParticles] = memory.doubles(at, CLOCK_COUNT);
+      return {
+        step, time, timeStep, soundSpeed, maxSpeed, machNumber, maxDensityError, fluidParticles, drainedParticles,
+        lostParticles,
+      } as Clock;
+    });
   }
 
   // By id; a view into wasm memory, valid until the next read() of the field or until that memory grows: use it at once
   // or copy it. null while the GPU copies.
   read(field: Field): Float32Array | null {
     const { memory, c } = this.#context;
-    const count = this.particleCount * (field === Field.density || field === Field.pressure ? 1 : 2);
+    const count = this.particleCount * (field >= Field.density ? 1 : this.dimension);
     const block = (this.#fields[field] ??= { at: memory.allocate(4 * count), view: new Float32Array(0) });
     const status = c.weir_sim_read(this.pointer, field, block.at, count);
     if (status === Status.pending) return null;
@@ -524,7 +606,27 @@ function readParameter(context: Context, scene: number, name: string): number[] 
   });
 }
 
-function triple(values: Float64Array, from: number): [number, number, number] {
+// The order of weir_web_renderer_draw() in apps/web/web_gpu.c.
+function writeView(to: Float32Array, view: View): void {
+  const { camera } = view;
+  to[0] = view.colorBy;
+  to[1] = view.colorMin;
+  to[2] = view.colorMax;
+  to[3] = view.particleRadius;
+  to.set(view.toolPosition, 4);
+  to[7] = view.toolRadius;
+  to[8] = view.toolPressed;
+  to.set(view.center, 9);
+  to[11] = view.pixelsPerMeter;
+  to.set(camera.target, 12);
+  to[15] = camera.yaw;
+  to[16] = camera.pitch;
+  to[17] = camera.distance;
+  to[18] = camera.fieldOfView;
+  to.set(camera.shift, 19);
+}
+
+function triple(values: Float64Array | Float32Array, from: number): Triple {
   return [values[from] as number, values[from + 1] as number, values[from + 2] as number];
 }
 
@@ -535,6 +637,7 @@ function hex(half: number | undefined): string {
 export class Renderer {
   readonly #context: Context;
   readonly #canvas: Canvas;
+  readonly #view: number; // floats of the view in wasm memory
   #pointer: number;
 
   constructor(context: Context, gpu: Gpu, canvas: Canvas) {
@@ -546,20 +649,20 @@ export class Renderer {
     this.#pointer = context.c.weir_web_renderer_create(gpu.pointer, id);
     if (this.#pointer === 0)
       throw new WeirError(Status.device, 'the canvas gives no WebGPU context, or memory ran out');
+    this.#view = context.memory.allocate(4 * VIEW_FLOATS);
   }
 
   // Queues one frame at canvas.width x canvas.height, in device pixels.
   draw(sim: Sim, view: View): Status {
-    const canvas = this.#canvas;
-    return this.#context.c.weir_web_renderer_draw(
-      this.#pointer, sim.pointer, canvas.width, canvas.height, view.colorBy, view.colorMin, view.colorMax,
-      view.center[0], view.center[1], view.pixelsPerMeter, view.particleRadius, view.toolPosition[0],
-      view.toolPosition[1], view.toolRadius, view.toolPressed,
-    );
+    const { memory, c } = this.#context;
+    writeView(memory.floats(this.#view, VIEW_FLOATS), view);
+    return c.weir_web_renderer_draw(this.#pointer, sim.pointer, this.#canvas.width, this.#canvas.height, this.#view);
   }
 
   destroy(): void {
-    if (this.#pointer !== 0) this.#context.c.weir_web_renderer_destroy(this.#pointer);
+    if (this.#pointer === 0) return;
+    this.#context.c.weir_web_renderer_destroy(this.#pointer);
+    this.#context.memory.free(this.#view);
     this.#pointer = 0;
   }
 }

@@ -23,7 +23,8 @@ function act(cpu: CpuRunner, message: ToWorker): void {
     try {
       cpu.start(message.scene, message.from);
       run = message.run;
-      send({ type: 'started', run, particles: cpu.particles, device: cpu.device });
+      const { particles, device, fluidSlots, dimension } = cpu;
+      send({ type: 'started', run, particles, device, fluidSlots, dimension });
     } catch (error) {
       send({ type: 'refused', run: message.run, status: statusOf(error), message: textOf(error) });
     }

@@ -2,7 +2,7 @@
 // of an earlier one are told apart.
 import type { Snapshot, Tool } from './engine.ts';
 import type { SceneDocument } from './scene_document.ts';
-import type { ColorBy, Diagnostics, Status } from './weir.ts';
+import type { Clock, ColorBy, Diagnostics, Status } from './weir.ts';
 
 export type ToWorker =
   | { type: 'load'; module: WebAssembly.Module }
@@ -14,7 +14,7 @@ export type ToWorker =
   | { type: 'reset' };
 
 export type FromWorker =
-  | { type: 'started'; run: number; particles: number; device: string }
+  | { type: 'started'; run: number; particles: number; device: string; fluidSlots: number; dimension: number }
   | { type: 'refused'; run: number; status: Status; message: string }
   | {
       type: 'frame';
@@ -25,6 +25,7 @@ export type FromWorker =
       stepMs: number;
       busyMs: number;
       diagnostics: Diagnostics | null;
+      clock: Clock | null;
       buffer: ArrayBuffer;
     }
   | { type: 'fault'; run: number; status: Status; message: string };

@@ -83,7 +83,7 @@ test('steps, tool, parameters and reset as on the CPU', async () => {
   sim.setParameter('gravity', [0, 0]);
   sim.setState(from, from.map(() => 0)); // at rest
   const [left = 0, bottom = 0] = dam.domain.min as number[];
-  sim.setTool(ToolKind.push, left, bottom, 0, 0, 0.5, 50);
+  sim.setTool(ToolKind.push, [left, bottom, 0], [0, 0, 0], 0.5, 50);
   sim.step(20);
   const velocity = await read(sim, Field.velocity);
   assert.ok(Math.max(...velocity) > 0.02);
@@ -149,7 +149,8 @@ test('the renderer draws particles where they are', async () => {
   const from = await read(sim, Field.position); // the first particle is the lowest on the left
   const view: View = {
     colorBy: ColorBy.speed, colorMin: 0, colorMax: 1, center: [from[0] as number, from[1] as number],
-    pixelsPerMeter: 128, particleRadius: 0.03, toolPosition: [0, 0], toolRadius: 0, toolPressed: 0,
+    pixelsPerMeter: 128, particleRadius: 0.03, toolPosition: [0, 0, 0], toolRadius: 0, toolPressed: 0,
+    camera: { target: [0, 0, 0], yaw: 0, pitch: 0, distance: 1, fieldOfView: 0.6, shift: [0, 0] },
   };
   assert.equal(renderer.draw(sim, view), Status.ok);
   assert.equal(renderer.draw(sim, view), Status.ok);

@@ -134,7 +134,7 @@ test('parameters change while it runs, or say why not', () => {
 test('the tool pushes, pulls and stirs', () => {
   const outward = (kind: ToolKind, vx: number): number => {
     const sim = start({ ...drop, parameters: { ...drop.parameters, gravity: [0, 0] } });
-    sim.setTool(kind, -0.2, -0.2, vx, 0, 0.3, 20);
+    sim.setTool(kind, [-0.2, -0.2, 0], [vx, 0, 0], 0.3, 20);
     sim.step(20);
     const speed = mean(read(sim, Field.velocity), 0);
     sim.destroy();
@@ -145,7 +145,7 @@ test('the tool pushes, pulls and stirs', () => {
   assert.ok(outward(ToolKind.stir, 2) > 1e-3);
   assert.equal(Math.abs(outward(ToolKind.none, 2)) < 1e-6, true);
   const sim = start();
-  assert.throws(() => sim.setTool(ToolKind.push, NaN, 0, 0, 0, 0.3, 20), WeirError);
+  assert.throws(() => sim.setTool(ToolKind.push, [NaN, 0, 0], [0, 0, 0], 0.3, 20), WeirError);
   sim.destroy();
 });
 
