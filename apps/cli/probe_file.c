@@ -43,7 +43,8 @@ static void clean_name(const char *name, char text[64])
     size_t k = 0;
     for (; name[k] && k < 63; ++k) {
         char c = name[k];
-        bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || strchr("-_.= ", c);
+        bool plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || strchr("-_.= ", c);
         text[k] = plain && !(k == 0 && c == '.') ? c : '_';
     }
     text[k] = '\0';

@@ -1,6 +1,7 @@
 // Adapters for scenes and simulations. JavaScript owns the memory that it hands over; it comes from
 // weir_web_allocate().
 #include "web.h"
+#include "core/scene.h"
 #include "weir/weir.h"
 
 #include <stdlib.h>
@@ -51,6 +52,19 @@ WEIR_WEB(weir_web_scene_domain)
 void weir_web_scene_domain(const WeirScene *scene, double bounds[6])
 {
     weir_scene_domain(scene, bounds, bounds + 3);
+}
+
+// Particles of fluid alone, without walls and bodies; 0 if the scene is not valid.
+WEIR_WEB(weir_web_scene_fluid_count)
+uint32_t weir_web_scene_fluid_count(WeirScene *scene)
+{
+    WeirWorld world = {0};
+    if (weir_scene_make_world(scene, &world) != WEIR_OK) return 0;
+    uint32_t count = 0;
+    for (uint32_t id = 0; id < world.particles.count; id++)
+        count += !world.particles.group || world.particles.group[id] == WEIR_GROUP_FLUID;
+    weir_world_free(&world);
+    return count;
 }
 
 WEIR_WEB(weir_web_sim_create)

@@ -114,8 +114,8 @@ static void piston_2d(WeirTestWorld *test)
     *test = start(2, 1.2, 0.9, 0);
     weir_test_world_fluid(test, (double[]){0.15, 0, 0}, (double[]){0.8, 0.4, 0}, 0.1, 0.2);
     weir_test_world_sides(test);
-    WeirSolid *piston =
-        weir_test_world_solid(test, WEIR_SOLID_DRIVEN, (double[]){0, 0, 0}, (double[]){0.15, 0.6, 0}, NOWHERE);
+    WeirSolid *piston = weir_test_world_solid(test, WEIR_SOLID_DRIVEN, (double[]){0, 0, 0},
+                                              (double[]){0.15, 0.6, 0}, NOWHERE);
     static const float rows[][13] = {
         {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
         {0.05f, 0.02f, 0, 0, 0, 0, 0.05f, 0.7f, 0, 0, 0, 0, 1},
@@ -226,12 +226,12 @@ static void open_2d(WeirTestWorld *test)
 }
 
 static const Case cases[] = {
-    {"dam_2d", dam_2d, 100},           {"dam_3d", dam_3d, 60},       {"tait_cubic_2d", tait_cubic_2d, 60},
-    {"quintic_3d", quintic_3d, 30},    {"laminar_2d", laminar_2d, 60}, {"slip_2d", slip_2d, 60},
-    {"plain_2d", plain_2d, 60},        {"periodic_2d", periodic_2d, 60}, {"periodic_3d", periodic_3d, 40},
-    {"channel_2d", channel_2d, 60},    {"piston_2d", piston_2d, 100}, {"shaker_3d", shaker_3d, 60},
-    {"bodies_2d", bodies_2d, 100},     {"body_3d", body_3d, 50},      {"tap_2d", tap_2d, 100},
-    {"tap_3d", tap_3d, 50},            {"open_2d", open_2d, 60},
+    {"dam_2d", dam_2d, 100},        {"dam_3d", dam_3d, 60},           {"tait_cubic_2d", tait_cubic_2d, 60},
+    {"quintic_3d", quintic_3d, 30}, {"laminar_2d", laminar_2d, 60},   {"slip_2d", slip_2d, 60},
+    {"plain_2d", plain_2d, 60},     {"periodic_2d", periodic_2d, 60}, {"periodic_3d", periodic_3d, 40},
+    {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
+    {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 50},         {"tap_2d", tap_2d, 100},
+    {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
 
@@ -271,8 +271,8 @@ static double largest(const float *values, size_t count)
     return most;
 }
 
-static void check(const char *where, const char *what, const float *actual, const float *expected, size_t count,
-                  double tolerance)
+static void check(const char *where, const char *what, const float *actual, const float *expected,
+                  size_t count, double tolerance)
 {
     double worst = 0;
     size_t at = 0;

@@ -47,8 +47,7 @@ static void add(WeirTestWorld *test, const double at[3], double disorder, double
     for (uint32_t axis = 0; axis < dimension; ++axis) {
         double off = disorder * test->spacing * weir_random_range(&test->random, -1, 1);
         particles->position[dimension * i + axis] = at[axis] + off;
-        particles->velocity[dimension * i + axis] =
-            (float)(speed * weir_random_range(&test->random, -1, 1));
+        particles->velocity[dimension * i + axis] = (float)(speed * weir_random_range(&test->random, -1, 1));
     }
     double rest = weir_scene_resolved(test->scene).rest_density;
     particles->density[i] = (float)(rest * (1 + excess * weir_random_range(&test->random, 0, 1)));
@@ -102,8 +101,8 @@ void weir_test_world_slots(WeirTestWorld *test, uint32_t count)
     test->world.particles.fluid_slots = test->world.particles.count;
 }
 
-WeirSolid *weir_test_world_solid(WeirTestWorld *test, WeirSolidKind kind, const double min[3], const double max[3],
-                                 const double hole_min[3], const double hole_max[3])
+WeirSolid *weir_test_world_solid(WeirTestWorld *test, WeirSolidKind kind, const double min[3],
+                                 const double max[3], const double hole_min[3], const double hole_max[3])
 {
     WeirWorld *world = &test->world;
     uint32_t dimension = world->particles.dimension;

@@ -24,8 +24,8 @@ void weir_test_world_fluid(WeirTestWorld *test, const double min[3], const doubl
                            double speed);
 void weir_test_world_slots(WeirTestWorld *test, uint32_t count); // empty ones
 // Lattice of a solid in a box, but not inside [hole_min, hole_max]. Its reference point is the middle of the box.
-WeirSolid *weir_test_world_solid(WeirTestWorld *test, WeirSolidKind kind, const double min[3], const double max[3],
-                                 const double hole_min[3], const double hole_max[3]);
+WeirSolid *weir_test_world_solid(WeirTestWorld *test, WeirSolidKind kind, const double min[3],
+                                 const double max[3], const double hole_min[3], const double hole_max[3]);
 // Walls three spacings thick around the domain, one solid.
 WeirSolid *weir_test_world_sides(WeirTestWorld *test);
 // Mass and inertia of a free body that is a box.

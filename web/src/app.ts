@@ -1,6 +1,6 @@
 // The page: one scene, one engine that runs it, and the controls around them.
 import type { Engine, FaultKind } from './engine.ts';
-import { formatNumber } from './format.ts';
+import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
 import { chooseRange, Legend } from './legend.ts';
 import { Notes } from './notes.ts';
@@ -23,6 +23,8 @@ export type AppOptions = {
 
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
 const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
+// What the C solver, on one core, still moves at a rate that one likes to watch.
+const cpuParticles = { 2: 8000, 3: 5000 } as const;
 const panelWidth = 304; // CSS pixels
 const headingWidth = 330;
 
@@ -46,6 +48,7 @@ export class App implements PanelHost {
   readonly #module: WebAssembly.Module;
   readonly #legend = new Legend(element('footer'));
   readonly #stage = element('stage');
+  #asked: boolean; // the user has asked for a number of particles
   #panel: Panel | null = null;
   #panelShown = true;
   #canvas: HTMLCanvasElement | null = null;
@@ -68,7 +71,8 @@ export class App implements PanelHost {
     this.backend = options.backend;
     this.sceneName = options.sceneName;
     this.store = new SceneStore(weir, options.document);
-    if (options.particles > 0) this.store.replace(this.store.withParticles(options.particles));
+    this.#asked = options.particles > 0;
+    if (this.#asked) this.store.replace(this.store.withParticles(options.particles));
     this.#lastGood = this.store.document;
     this.pointer = new Pointer(this.#stage, this.camera);
     this.pointer.onRadius = () => this.#panel?.refresh();
@@ -120,6 +124,7 @@ export class App implements PanelHost {
     this.engine = engine;
     if (reason) this.#explain(reason);
     try {
+      if (!from && !this.#asked) this.#suit();
       await engine.start(this.store.document, from);
       this.#started();
     } catch (error) {
@@ -189,12 +194,27 @@ export class App implements PanelHost {
 
   // ---- Scenes ----
 
+  // A scene of wcsph made for a graphics card gets fewer particles where the C solver moves it.
+  #suit(): void {
+    const { scene, derived } = this.store;
+    const most = cpuParticles[scene.dimension === 3 ? 3 : 2];
+    if (this.engine?.kind === 'gpu' || scene.method !== 'wcsph' || derived.particles <= 1.2 * most) return;
+    try {
+      this.store.replace(this.store.withParticles(most));
+    } catch {
+      return; // too coarse for what is in the scene
+    }
+    const [fewer, usual] = [this.store.derived.particles, derived.particles].map(formatCount);
+    this.notes.toast('info', `${fewer} particles instead of ${usual}: without a graphics card one core moves them.`);
+  }
+
   // Starts a document; the last good one goes on if it is refused.
-  #run(next: SceneDocument, name = this.sceneName): Promise<void> {
+  #run(next: SceneDocument, name = this.sceneName, isNew = false): Promise<void> {
     this.#starting = this.#starting.then(async () => {
       try {
         this.store.replace(next);
-        await this.engine?.start(next, null);
+        if (isNew) this.#suit();
+        await this.engine?.start(this.store.document, null);
         this.sceneName = name;
         this.#started();
       } catch (error) {
@@ -210,7 +230,7 @@ export class App implements PanelHost {
     try {
       const document = (await fetchScene(nameOrUrl)) as SceneDocument;
       this.setPaused(false);
-      await this.#run(document, nameOrUrl);
+      await this.#run(document, nameOrUrl, true);
     } catch (error) {
       this.notes.toast('error', (error as Error).message);
       this.#panel?.refresh();
@@ -219,7 +239,7 @@ export class App implements PanelHost {
 
   async loadText(text: string, name: string): Promise<void> {
     try {
-      await this.#run(parseScene(text, name) as SceneDocument, name);
+      await this.#run(parseScene(text, name) as SceneDocument, name, true);
     } catch (error) {
       this.notes.toast('error', (error as Error).message);
     }

@@ -3,6 +3,7 @@
 import { withParameters, type ParameterValue, type SceneDocument } from './scene_document.ts';
 import type { ParameterInfo, Scene, Weir } from './weir.ts';
 
+// particles: of fluid, without walls and bodies.
 export type Derived = { particles: number; stableTimeStep: number; warning: string };
 
 export class SceneStore {
@@ -52,7 +53,7 @@ export class SceneStore {
     for (let round = 0; round < 3 && particles > 0 && Math.abs(particles / count - 1) > 0.005; round++) {
       const next = this.#scaled(document, (particles / count) ** (1 / this.scene.dimension));
       const scene = this.#weir.loadScene(next);
-      const made = scene.particleCount;
+      const made = scene.fluidCount;
       if (made === 0) {
         // Let the engine say why, through check().
         scene.destroy();
@@ -94,5 +95,5 @@ export class SceneStore {
 }
 
 function derive(scene: Scene): Derived {
-  return { particles: scene.particleCount, stableTimeStep: scene.stableTimeStep, warning: scene.warning };
+  return { particles: scene.fluidCount, stableTimeStep: scene.stableTimeStep, warning: scene.warning };
 }

@@ -301,6 +301,11 @@ export class Scene {
     return this.#context.c.weir_scene_particle_count(this.pointer) >>> 0;
   }
 
+  // Without walls and bodies.
+  get fluidCount(): number {
+    return this.#context.c.weir_web_scene_fluid_count(this.pointer) >>> 0;
+  }
+
   get stableTimeStep(): number {
     return this.#context.c.weir_scene_stable_time_step(this.pointer);
   }

@@ -30,7 +30,7 @@ type Name =
   | 'weir_sim_step' | 'weir_sim_time' | 'weir_sim_warning' | 'weir_web_allocate' | 'weir_web_color_map'
   | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameter'
   | 'weir_web_renderer_create' | 'weir_web_renderer_destroy' | 'weir_web_renderer_draw'
-  | 'weir_web_scene_domain' | 'weir_web_sim_clock' | 'weir_web_view_matrix' | 'weir_web_view_ray'
+  | 'weir_web_scene_domain' | 'weir_web_scene_fluid_count' | 'weir_web_sim_clock' | 'weir_web_view_matrix' | 'weir_web_view_ray'
   | 'weir_scene_look' | 'weir_sim_fluid_slots' | 'weir_sim_run_until' | 'weir_web_sim_advance' | 'weir_web_sim_create' | 'weir_web_sim_diagnose'
   | 'weir_web_sim_pass_times' | 'weir_web_sim_set_tool' | 'weir_web_sim_step_count' | 'weir_web_version';
 export type WeirExports = WebGpuExports & { _initialize(): void } & Record<Name, Call>;
