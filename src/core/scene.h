@@ -153,5 +153,8 @@ WeirParameters weir_scene_resolved(const WeirScene *scene);
 double weir_scene_expected_speed(const WeirScene *scene);
 // Checks the scene and makes all that a simulation starts with; free it with weir_world_free().
 WeirStatus weir_scene_make_world(WeirScene *scene, WeirWorld *world);
+// Index into WeirWorld.solids of the wall or body of that name, or of "domain", the domain's own sides; -1 if there
+// is none.
+int weir_scene_solid_index(const WeirScene *scene, const char *name);
 // Refreshes the scene's warning: a time step above the stable one.
 void weir_scene_advise(WeirScene *scene);

@@ -2,6 +2,7 @@
 #include "core/kernel.h"
 #include "core/scene_shape.h"
 #include "core/smoothing.h"
+#include "core/world_build.h"
 
 #include <math.h>
 
@@ -27,6 +28,45 @@ static double largest_speed(const WeirScene *scene, double factor)
     return largest;
 }
 
+// Largest speed that a piece's flow starts with, or comes to: a drop that is stretched keeps its energy, so its tips
+// reach sqrt(2) times the speed of its edge.
+static double flow_speed(const WeirScene *scene, const WeirFluid *fluid)
+{
+    double low[3], high[3], rate = fabs(fluid->flow_rate), square = 0.0;
+    weir_shape_bounds(&fluid->shape, scene->dimension, low, high);
+    for (int axis = 0; axis < 2; ++axis) square += 0.25 * (high[axis] - low[axis]) * (high[axis] - low[axis]);
+    if (fluid->flow == WEIR_FLOW_TAYLOR_GREEN) return rate;
+    if (fluid->flow == WEIR_FLOW_ROTATING_SQUARE) return rate * sqrt(square);
+    if (fluid->flow == WEIR_FLOW_STRETCH) return rate * sqrt(square); // a disc: sqrt(2) times its radius
+    return 0.0;
+}
+
+// Of all that is given: flows, walls, bodies, emitters.
+static double given_speed(const WeirScene *scene)
+{
+    double largest = 0.0, spacing = scene->parameters.particle_spacing;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n)
+        largest = fmax(largest, flow_speed(scene, &scene->fluid[n]));
+    for (uint32_t n = 0; n < scene->wall_count; ++n)
+        largest = fmax(largest, weir_solid_speed(&scene->wall[n], scene->dimension));
+    for (uint32_t n = 0; n < scene->body_count; ++n)
+        largest = fmax(largest, weir_solid_speed(&scene->body[n], scene->dimension));
+    for (uint32_t n = 0; n < scene->emitter_count; ++n) {
+        const WeirEmitterPiece *emitter = &scene->emitter[n];
+        double size = fmax(emitter->size, spacing);
+        double area = scene->dimension == 3 ? 0.785 * size * size : size;
+        double speed = emitter->speed > 0.0 ? emitter->speed : emitter->flow_rate / area,
+               square = speed * speed;
+        for (uint32_t axis = 0; axis < scene->dimension; ++axis) { // and its fall
+            double gravity = scene->parameters.gravity[axis], at = emitter->center[axis];
+            double fall = gravity < 0.0 ? at - scene->domain_min[axis] : scene->domain_max[axis] - at;
+            square += 2.0 * fabs(gravity) * fmax(fall, 0.0);
+        }
+        largest = fmax(largest, sqrt(square));
+    }
+    return largest;
+}
+
 // Shortest extent of the domain.
 static double shortest_extent(const WeirScene *scene)
 {
@@ -41,13 +81,19 @@ static double shortest_extent(const WeirScene *scene)
 double weir_scene_expected_speed(const WeirScene *scene)
 {
     const WeirParameters *parameters = &scene->parameters;
-    double length = shortest_extent(scene), speed = largest_speed(scene, 4.0);
+    double length = shortest_extent(scene), speed = fmax(largest_speed(scene, 4.0), given_speed(scene));
     double viscosity = (double)parameters->viscosity / parameters->rest_density;
-    double force = (double)parameters->central_force * length;
+    double drive = 0.0, central = parameters->central_force;
     for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
-        if (scene->periodic[axis]) force += fabs((double)parameters->gravity[axis]);
+        if (scene->periodic[axis]) drive += fabs((double)parameters->gravity[axis]);
     }
-    double expected = sqrt(fmax(speed * speed, fmax(viscosity * speed / length, force * length)));
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) { // a drop swings with its radius times Omega
+        const WeirShape *shape = &scene->fluid[n].shape;
+        double low[3], high[3];
+        weir_shape_bounds(shape, scene->dimension, low, high);
+        speed = fmax(speed, sqrt(central) * 0.5 * (high[0] - low[0]));
+    }
+    double expected = sqrt(fmax(speed * speed, fmax(viscosity * speed / length, drive * length)));
     return expected > 0.0 ? expected : 1.0; // nothing moves by itself
 }
 

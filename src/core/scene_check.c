@@ -3,6 +3,7 @@
 #include "core/world_build.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 uint32_t weir_wall_layers(const WeirParameters *parameters)
@@ -15,27 +16,19 @@ uint32_t weir_wall_layers(const WeirParameters *parameters)
 static WeirStatus check_fluid(WeirScene *scene, uint32_t index)
 {
     const WeirFluid *fluid = &scene->fluid[index];
-    const char *missing = weir_shape_missing(&fluid->shape);
-    if (missing)
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "fluid[%u]: %s is missing", index, missing);
-    double low[3], high[3];
-    weir_shape_bounds(&fluid->shape, scene->dimension, low, high);
-    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
-        char name = "xyz"[axis];
-        if (low[axis] >= high[axis]) {
-            return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                             "fluid[%u].box: min %c = %g must be below max %c = %g", index, name, low[axis],
-                             name, high[axis]);
-        }
-        // Box ends like 0.1 * 3 may lie beyond the wall by rounding alone.
-        double slack = 1e-9 * (scene->domain_max[axis] - scene->domain_min[axis]);
-        if (low[axis] < scene->domain_min[axis] - slack || high[axis] > scene->domain_max[axis] + slack) {
-            return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                             "fluid[%u]: reaches from %c = %g to %g; the domain allows %g to %g", index, name,
-                             low[axis], high[axis], scene->domain_min[axis], scene->domain_max[axis]);
-        }
+    char name[32];
+    snprintf(name, sizeof name, "fluid[%u]", index);
+    WeirStatus status = weir_shape_check(scene, &fluid->shape, name);
+    if (!status) status = weir_check_inside(scene, &fluid->shape, name);
+    if (!status && fluid->flow != WEIR_FLOW_NONE && scene->dimension != 2)
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s.flow: is for 2D", name);
+    if (!status && fluid->flow == WEIR_FLOW_STANDING_WAVE &&
+        (scene->parameters.gravity[1] >= 0.0f || scene->parameters.gravity[0] != 0.0f)) {
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                         "%s.flow: a standing wave needs gravity along -y; it is %g, %g", name,
+                         scene->parameters.gravity[0], scene->parameters.gravity[1]);
     }
-    return WEIR_OK;
+    return status;
 }
 
 // Support radius against spacing.
@@ -124,29 +117,12 @@ static WeirStatus check_method(WeirScene *scene)
                      "%s: only method wcsph knows it; this scene's is mueller", found);
 }
 
-// Keys whose particles are not made yet.
-static WeirStatus check_known(WeirScene *scene)
-{
-    const char *found = NULL;
-    if (scene->wall_count) found = "walls";
-    if (scene->body_count) found = "bodies";
-    if (scene->emitter_count) found = "emitters";
-    if (scene->drain_count) found = "drains";
-    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        if (scene->fluid[n].flow != WEIR_FLOW_NONE) found = "fluid: flow";
-        if (scene->fluid[n].shape.kind > WEIR_SHAPE_BALL) found = "fluid: polygon, cylinder, mesh";
-    }
-    if (!found) return WEIR_OK;
-    return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s: this version cannot make it yet", found);
-}
-
 WeirStatus weir_scene_check_values(WeirScene *scene)
 {
     WeirStatus status = check_domain(scene);
     if (!status) status = check_support(scene);
     if (!status) status = check_parameters(scene);
     if (!status) status = check_method(scene);
-    if (!status) status = check_known(scene);
     if (status) return status;
     if (scene->fluid_count == 0) {
         return weir_fail(
@@ -157,5 +133,5 @@ WeirStatus weir_scene_check_values(WeirScene *scene)
         status = check_fluid(scene, n);
         if (status) return status;
     }
-    return WEIR_OK;
+    return weir_scene_check_pieces(scene);
 }

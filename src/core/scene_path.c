@@ -149,7 +149,9 @@ static void start_piece(WeirOwner owner, void *piece)
 {
     if (owner == WEIR_OWNER_FLUID) ((WeirFluid *)piece)->hydrostatic = true;
     if (owner == WEIR_OWNER_WALL || owner == WEIR_OWNER_BODY) ((WeirSolidPiece *)piece)->no_slip = true;
-    if (owner == WEIR_OWNER_PROBE) ((WeirProbePiece *)piece)->rate = 100.0;
+    if (owner != WEIR_OWNER_PROBE) return;
+    ((WeirProbePiece *)piece)->rate = 100.0;
+    ((WeirProbePiece *)piece)->direction[0] = 1.0;
 }
 
 // `rest` is what follows the list's name: "[0].box.min".

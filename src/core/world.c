@@ -1,4 +1,5 @@
 // From a scene to the world that a simulation starts with.
+#include "core/scene_shape.h"
 #include "core/world_build.h"
 
 #include <math.h>
@@ -48,12 +49,39 @@ static WeirStatus check_count(const WeirBuild *build)
                      walls ? "domain" : "fluid", walls ? sides : fluid, WEIR_MAX_PARTICLES, build->spacing);
 }
 
+static bool start_surfaces(WeirBuild *build)
+{
+    const WeirScene *scene = build->scene;
+    build->walls = calloc(WEIR_MAX_WALLS, sizeof *build->walls);
+    build->bodies = calloc(WEIR_MAX_BODIES, sizeof *build->bodies);
+    bool ready = build->walls && build->bodies;
+    for (uint32_t n = 0; ready && n < scene->wall_count; ++n)
+        ready = weir_surface_start(&build->walls[n], &scene->wall[n].shape, build->dimension);
+    for (uint32_t n = 0; ready && n < scene->body_count; ++n)
+        ready = weir_surface_start(&build->bodies[n], &scene->body[n].shape, build->dimension);
+    return ready;
+}
+
+static void end_surfaces(WeirBuild *build)
+{
+    for (uint32_t n = 0; build->walls && n < build->scene->wall_count; ++n)
+        weir_surface_end(&build->walls[n]);
+    for (uint32_t n = 0; build->bodies && n < build->scene->body_count; ++n)
+        weir_surface_end(&build->bodies[n]);
+    free(build->walls);
+    free(build->bodies);
+}
+
 static WeirStatus make_points(WeirBuild *build)
 {
     WeirStatus status = weir_build_fluid(build);
     if (status || build->scene->method != WEIR_METHOD_WCSPH) return status;
-    weir_build_sides(build);
-    return WEIR_OK;
+    if (!start_surfaces(build)) return no_memory(build->scene, 0.0);
+    status = weir_build_solids(build);
+    if (!status) status = weir_build_trim_fluid(build);
+    if (!status) status = weir_build_emitters(build);
+    if (!status) status = weir_build_motions(build);
+    return status;
 }
 
 // The particles of fluid and solids side by side, with their groups.
@@ -61,12 +89,12 @@ static WeirStatus join(WeirBuild *build)
 {
     WeirWorld *world = build->world;
     WeirParticles *particles = &world->particles;
-    uint64_t fluid = build->fluid.count, count = fluid + build->solid.count;
+    uint64_t slots = build->fluid.count + build->empty, count = slots + build->solid.count;
     size_t dimension = build->dimension;
     bool wcsph = build->scene->method == WEIR_METHOD_WCSPH;
     particles->dimension = build->dimension;
     particles->count = (uint32_t)count;
-    particles->fluid_slots = (uint32_t)fluid;
+    particles->fluid_slots = (uint32_t)slots;
     particles->position = build->fluid.data;
     build->fluid.data = NULL;
     double *grown = realloc(particles->position, count * dimension * sizeof *grown);
@@ -78,14 +106,21 @@ static WeirStatus join(WeirBuild *build)
     }
     if (!grown || !particles->velocity || (wcsph && !(particles->density && particles->group)))
         return no_memory(build->scene, (double)count);
+    for (uint64_t i = build->fluid.count; i < slots; ++i) {
+        // An empty slot lies in the domain's corner, so that whoever draws or copies it needs no exception.
+        for (size_t axis = 0; axis < dimension; ++axis)
+            particles->position[i * dimension + axis] = build->scene->domain_min[axis];
+        particles->group[i] = WEIR_GROUP_EMPTY;
+    }
     if (build->solid.count > 0) {
-        memcpy(&particles->position[fluid * dimension], build->solid.data,
+        memcpy(&particles->position[slots * dimension], build->solid.data,
                build->solid.count * dimension * sizeof(double));
     }
-    for (uint64_t i = fluid; i < count; ++i) particles->density[i] = build->parameters.rest_density;
+    for (uint64_t i = build->fluid.count; i < count; ++i)
+        particles->density[i] = build->parameters.rest_density;
     for (uint32_t s = 0; s < world->solid_count; ++s) {
         WeirSolid *solid = &world->solids[s];
-        solid->first += (uint32_t)fluid;
+        solid->first += (uint32_t)slots;
         for (uint32_t i = 0; i < solid->count; ++i) particles->group[solid->first + i] = WEIR_GROUP_SOLID + s;
     }
     weir_build_start(build);
@@ -104,8 +139,14 @@ static WeirStatus make_world(WeirBuild *build)
     if (!build->world->solids) return no_memory(scene, 0.0);
     status = make_points(build);
     if (status) return status;
-    double count = (double)build->fluid.count + (double)build->solid.count;
+    double count = (double)build->fluid.count + (double)build->empty + (double)build->solid.count;
     if (build->fluid.failed || build->solid.failed) return no_memory(scene, count);
+    if (count > WEIR_MAX_PARTICLES) {
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                         "%.4g particles, empty slots included; allowed are %d. Raise "
+                         "parameters.particle_spacing, or lower emitters[0].capacity",
+                         count, WEIR_MAX_PARTICLES);
+    }
     return join(build);
 }
 
@@ -122,6 +163,7 @@ WeirStatus weir_scene_make_world(WeirScene *scene, WeirWorld *world)
         .world = world,
     };
     WeirStatus status = make_world(&build);
+    end_surfaces(&build);
     weir_points_free(&build.fluid);
     weir_points_free(&build.solid);
     if (status) {

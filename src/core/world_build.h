@@ -23,22 +23,47 @@ typedef struct WeirBuild {
     uint32_t layers;                     // of wall particles that the support needs
     WeirPoints fluid;                    // by piece
     uint64_t first[WEIR_MAX_FLUIDS + 1]; // of a piece's points; the last: their number
+    uint32_t empty;                      // slots for emitters
     WeirPoints solid;                    // of all solids, one after the other
+    struct WeirSurface *walls, *bodies;  // their shapes, ready
     WeirWorld *world;
 } WeirBuild;
 
 // Fills build->fluid and ->first with the sites of all pieces.
 WeirStatus weir_build_fluid(WeirBuild *build);
+// Drops fluid inside walls and bodies, or nearer than half a spacing to them.
+WeirStatus weir_build_trim_fluid(WeirBuild *build);
 // Velocity and density at the start of all fluid particles, in the world's arrays.
 void weir_build_start(WeirBuild *build);
 // Upper bound on the fluid's sites.
 double weir_fluid_sites(const WeirScene *scene);
-// The domain's own sides as wall particles: adds solid 0 if any side is closed.
-void weir_build_sides(WeirBuild *build);
+// A field of flow at a point, added to the velocity; returns its pressure.
+double weir_flow_at(const WeirScene *scene, const WeirFluid *fluid, const double *point, double velocity[3]);
+
+// The domain's own sides as wall particles, added to `points`.
+void weir_build_sides(WeirBuild *build, WeirPoints *points);
 // Number of particles of the domain's sides.
 double weir_sides_count(const WeirScene *scene, double spacing, uint32_t layers);
 bool weir_has_sides(const WeirScene *scene);
+
+// The domain's sides, walls and bodies: fills build->solid and the world's solids.
+WeirStatus weir_build_solids(WeirBuild *build);
+// Upper bound on the particles of walls and bodies.
+double weir_solids_count(const WeirScene *scene, double spacing, uint32_t layers);
+// Tables of all prescribed motions, in the world.
+WeirStatus weir_build_motions(WeirBuild *build);
+// Largest speed of a wall or body as prescribed or at the start, m/s.
+double weir_solid_speed(const WeirSolidPiece *piece, uint32_t dimension);
+// Is this where an emitter that always runs makes its layers? No wall can be there.
+bool weir_is_in_inlet(const WeirBuild *build, const double *point);
+// Nozzles, drains and the slots for emitters.
+WeirStatus weir_build_emitters(WeirBuild *build);
+
 // Checks all that needs no particles.
 WeirStatus weir_scene_check_values(WeirScene *scene);
+// The same of walls, bodies, emitters, drains and probes.
+WeirStatus weir_scene_check_pieces(WeirScene *scene);
+// Does a shape reach out of the domain?
+WeirStatus weir_check_inside(WeirScene *scene, const WeirShape *shape, const char *piece);
 // Layers of wall particles that a support radius needs.
 uint32_t weir_wall_layers(const WeirParameters *parameters);

@@ -1,7 +1,7 @@
 // A scene's fluid on its lattice, and its state at the start.
 #include "core/exact_math.h"
 #include "core/scene_shape.h"
-#include "core/world_build.h"
+#include "core/solid_job.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,6 +30,18 @@ static Lattice fluid_lattice(const WeirFluid *fluid, uint32_t dimension, double 
     return lattice;
 }
 
+static bool is_inside(const WeirSurface *surface, const double *point)
+{
+    const WeirShape *shape = surface->shape;
+    if (shape->kind != WEIR_SHAPE_BALL) return weir_surface_distance(surface, point) < 0.0;
+    double distance2 = 0.0;
+    for (uint32_t axis = 0; axis < surface->dimension; ++axis) {
+        double d = point[axis] - shape->center[axis];
+        distance2 += d * d;
+    }
+    return distance2 <= shape->radius * shape->radius;
+}
+
 double weir_fluid_sites(const WeirScene *scene)
 {
     double spacing = scene->parameters.particle_spacing, total = 0.0;
@@ -43,57 +55,103 @@ double weir_fluid_sites(const WeirScene *scene)
     return total;
 }
 
-static void fill_piece(WeirBuild *build, const WeirFluid *fluid)
+// A disc of `wcsph` in concentric rings: its edge is round and its mass is right; a square lattice cut by a circle
+// has steps, which start waves.
+static void fill_disc(WeirBuild *build, const WeirSurface *surface)
+{
+    WeirSolidJob job = {.surface = surface, .layers = UINT32_MAX, .spacing = build->spacing};
+    weir_near_start(&job.near, build->dimension, build->spacing);
+    weir_job_ball(&job);
+    build->fluid.failed |= job.near.points.failed;
+    for (uint64_t i = 0; i < job.near.points.count; ++i)
+        weir_points_add(&build->fluid, &job.near.points.data[2 * i]);
+    weir_near_end(&job.near);
+}
+
+static void fill_lattice(WeirBuild *build, const WeirFluid *fluid, const WeirSurface *surface)
 {
     Lattice lattice = fluid_lattice(fluid, build->dimension, build->spacing);
     uint64_t k[3];
     for (k[2] = 0; k[2] < lattice.sites[2]; ++k[2]) {
         for (k[1] = 0; k[1] < lattice.sites[1]; ++k[1]) {
             for (k[0] = 0; k[0] < lattice.sites[0]; ++k[0]) {
-                double point[3];
+                double point[3] = {0.0};
                 for (uint32_t axis = 0; axis < build->dimension; ++axis)
                     point[axis] = lattice.origin[axis] + (double)k[axis] * build->spacing;
                 // Rounding must not cost a box its outermost sites.
-                if (fluid->shape.kind == WEIR_SHAPE_BOX ||
-                    weir_shape_contains(&fluid->shape, build->dimension, point))
+                if (fluid->shape.kind == WEIR_SHAPE_BOX || is_inside(surface, point))
                     weir_points_add(&build->fluid, point);
             }
         }
     }
 }
 
+static void fill_piece(WeirBuild *build, const WeirFluid *fluid)
+{
+    WeirSurface surface;
+    if (!weir_surface_start(&surface, &fluid->shape, build->dimension)) {
+        build->fluid.failed = true;
+        return;
+    }
+    bool is_disc = fluid->shape.kind == WEIR_SHAPE_BALL && build->dimension == 2;
+    if (is_disc && build->scene->method == WEIR_METHOD_WCSPH)
+        fill_disc(build, &surface);
+    else
+        fill_lattice(build, fluid, &surface);
+    weir_surface_end(&surface);
+}
+
 // Does a particle of one piece lie on a site of the piece `other`? Lattices may be shifted against each other,
 // so half a spacing of distance to the other piece's outermost sites is asked for.
-static bool overlaps(const WeirFluid *other, uint32_t dimension, double spacing, const double *position)
+static bool overlaps(const WeirSurface *other, double spacing, const double *position)
 {
-    WeirShape shape = other->shape;
-    bool is_ball = shape.kind == WEIR_SHAPE_BALL;
-    double gap = (is_ball ? 0.49 : 0.02) * spacing;
-    double distance2 = 0.0, r = shape.radius - gap;
-    for (uint32_t axis = 0; axis < dimension; ++axis) {
-        double x = position[axis], d = x - shape.center[axis];
-        distance2 += d * d;
-        if (!is_ball && !(x > shape.min[axis] + gap && x < shape.max[axis] - gap)) return false;
+    const WeirShape *shape = other->shape;
+    if (shape->kind == WEIR_SHAPE_BOX) {
+        double gap = 0.02 * spacing;
+        for (uint32_t axis = 0; axis < other->dimension; ++axis) {
+            double x = position[axis];
+            if (!(x > shape->min[axis] + gap && x < shape->max[axis] - gap)) return false;
+        }
+        return true;
     }
-    return !is_ball || (r > 0.0 && distance2 < r * r);
+    double gap = 0.49 * spacing;
+    if (shape->kind != WEIR_SHAPE_BALL) return weir_surface_distance(other, position) < -gap;
+    double distance2 = 0.0, r = shape->radius - gap;
+    for (uint32_t axis = 0; axis < other->dimension; ++axis) {
+        double d = position[axis] - shape->center[axis];
+        distance2 += d * d;
+    }
+    return r > 0.0 && distance2 < r * r;
+}
+
+static WeirStatus check_pair(WeirBuild *build, uint32_t n, uint32_t other, const WeirSurface *surface)
+{
+    for (uint64_t i = build->first[n]; i < build->first[n + 1]; ++i) {
+        const double *point = &build->fluid.data[i * build->dimension];
+        if (!overlaps(surface, build->spacing, point)) continue;
+        return weir_fail(&build->scene->error, WEIR_ERROR_INPUT,
+                         "fluid[%u] overlaps fluid[%u] near (%g, %g); move one of them", n, other, point[0],
+                         point[1]);
+    }
+    return WEIR_OK;
 }
 
 static WeirStatus check_overlap(WeirBuild *build)
 {
     WeirScene *scene = build->scene;
-    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        for (uint32_t other = 0; other < scene->fluid_count; ++other) {
-            if (other == n) continue;
-            for (uint64_t i = build->first[n]; i < build->first[n + 1]; ++i) {
-                const double *point = &build->fluid.data[i * build->dimension];
-                if (!overlaps(&scene->fluid[other], build->dimension, build->spacing, point)) continue;
-                return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                                 "fluid[%u] overlaps fluid[%u] near (%g, %g); move one of them", n, other,
-                                 point[0], point[1]);
-            }
+    WeirStatus status = WEIR_OK;
+    for (uint32_t other = 0; other < scene->fluid_count && scene->fluid_count > 1 && !status; ++other) {
+        WeirSurface surface;
+        if (!weir_surface_start(&surface, &scene->fluid[other].shape, build->dimension)) {
+            build->fluid.failed = true;
+            return WEIR_OK;
         }
+        for (uint32_t n = 0; n < scene->fluid_count && !status; ++n) {
+            if (n != other) status = check_pair(build, n, other, &surface);
+        }
+        weir_surface_end(&surface);
     }
-    return WEIR_OK;
+    return status;
 }
 
 WeirStatus weir_build_fluid(WeirBuild *build)
@@ -147,16 +205,34 @@ static double density_under(const WeirParameters *parameters, double pressure)
     return rest * weir_seventh_root(1.0 + 7.0 * x);
 }
 
+// Pressure of a ball's own weight where the central force acts.
+static double central_pressure(const WeirScene *scene, const WeirFluid *fluid, const double *point)
+{
+    double force = scene->parameters.central_force, r2 = 0.0;
+    if (fluid->shape.kind != WEIR_SHAPE_BALL || force == 0.0 || fluid->flow == WEIR_FLOW_STRETCH) return 0.0;
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        double d = point[axis] - fluid->shape.center[axis];
+        r2 += d * d;
+    }
+    double edge2 = fluid->shape.radius * fluid->shape.radius;
+    return 0.5 * scene->parameters.rest_density * force * fmax(edge2 - r2, 0.0);
+}
+
 static void start_piece(WeirBuild *build, const WeirFluid *fluid, uint64_t first, uint64_t end)
 {
     WeirParticles *particles = &build->world->particles;
     double top = top_head(build->scene, fluid), rest = build->parameters.rest_density;
     for (uint64_t i = first; i < end; ++i) {
         const double *point = &particles->position[i * build->dimension];
+        double velocity[3] = {fluid->velocity[0], fluid->velocity[1], fluid->velocity[2]};
+        double pressure = weir_flow_at(build->scene, fluid, point, velocity);
         for (uint32_t axis = 0; axis < build->dimension; ++axis)
-            particles->velocity[i * build->dimension + axis] = (float)fluid->velocity[axis];
+            particles->velocity[i * build->dimension + axis] = (float)velocity[axis];
         if (!particles->density) continue;
-        double pressure = fluid->hydrostatic ? rest * fmax(top - head(build->scene, point), 0.0) : 0.0;
+        if (fluid->hydrostatic) {
+            pressure += rest * fmax(top - head(build->scene, point), 0.0);
+            pressure += central_pressure(build->scene, fluid, point);
+        }
         particles->density[i] = (float)density_under(&build->parameters, pressure);
     }
 }
