@@ -16,7 +16,7 @@ typedef struct Node {
 
 typedef struct Triangle {
     double corner[3][3];
-    double normal[3];        // of the face, unit
+    double normal[3];         // of the face, unit
     double edge_normal[3][3]; // of the edges 01, 12, 20: sum of both faces' normals
     uint32_t welded[3];
 } Triangle;
@@ -77,7 +77,8 @@ static void make_triangle(WeirMeshTree *tree, const WeirMesh *mesh, const WeirWe
         subtract(triangle->corner[(k + 2) % 3], triangle->corner[k], b);
         double angle = angle_between(a, b);
         for (int axis = 0; axis < 3; ++axis)
-            tree->corner_normals[3 * (size_t)triangle->welded[k] + (size_t)axis] += angle * triangle->normal[axis];
+            tree->corner_normals[3 * (size_t)triangle->welded[k] + (size_t)axis] +=
+                angle * triangle->normal[axis];
     }
 }
 
@@ -248,8 +249,9 @@ static void visit_triangle(const WeirMeshTree *tree, const Triangle *triangle, c
     double weights[3], offset[3];
     const double *normal = closest_feature(tree, triangle, p, weights);
     for (int axis = 0; axis < 3; ++axis) {
-        offset[axis] = p[axis] - (weights[0] * triangle->corner[0][axis] + weights[1] * triangle->corner[1][axis] +
-                                  weights[2] * triangle->corner[2][axis]);
+        offset[axis] =
+            p[axis] - (weights[0] * triangle->corner[0][axis] + weights[1] * triangle->corner[1][axis] +
+                       weights[2] * triangle->corner[2][axis]);
     }
     double distance2 = dot(offset, offset);
     if (!(distance2 < closest->distance2)) return;
@@ -262,13 +264,14 @@ static double box_distance2(const Node *node, const double p[3])
 {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        double d = fmax(fmax(node->low[axis] - p[axis], p[axis] - node->high[axis]), 0.0);
-        sum += d * d;
+        double below = node->low[axis] - p[axis], above = p[axis] - node->high[axis];
+        double d = below > above ? below : above;
+        sum += d > 0.0 ? d * d : 0.0;
     }
     return sum;
 }
 
-double weir_mesh_tree_distance(const WeirMeshTree *tree, const double point[3])
+double weir_mesh_tree_distance(const WeirMeshTree *tree, const double point[3], double slope[3])
 {
     Closest closest = {.distance2 = DBL_MAX, .normal = tree->triangles[0].normal};
     struct {
@@ -293,6 +296,8 @@ double weir_mesh_tree_distance(const WeirMeshTree *tree, const double point[3])
         stack[depth].node = near;
         stack[depth++].distance2 = fmin(a, b);
     }
-    double distance = sqrt(closest.distance2);
-    return dot(closest.offset, closest.normal) < 0.0 ? -distance : distance;
+    double distance = sqrt(closest.distance2), sign = dot(closest.offset, closest.normal) < 0.0 ? -1.0 : 1.0;
+    for (int axis = 0; slope && axis < 3; ++axis)
+        slope[axis] = distance > 0.0 ? sign * closest.offset[axis] / distance : 0.0;
+    return sign * distance;
 }

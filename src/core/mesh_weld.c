@@ -128,8 +128,8 @@ static WeirStatus check_indices(WeirScene *scene, const WeirMesh *mesh, const ch
     for (size_t k = 0; k < 3 * (size_t)mesh->triangle_count; ++k) {
         if (mesh->triangles[k] < mesh->vertex_count) continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%s.mesh.triangles[%zu]: corner %u does not exist; there are %u vertices", piece, k / 3,
-                         mesh->triangles[k], mesh->vertex_count);
+                         "%s.mesh.triangles[%zu]: corner %u does not exist; there are %u vertices", piece,
+                         k / 3, mesh->triangles[k], mesh->vertex_count);
     }
     return WEIR_OK;
 }
@@ -137,8 +137,7 @@ static WeirStatus check_indices(WeirScene *scene, const WeirMesh *mesh, const ch
 // Twice the area vector of a triangle.
 static void area_of(const WeirMesh *mesh, uint32_t t, double corner[3][3], double area[3])
 {
-    for (int k = 0; k < 3; ++k)
-        weir_mesh_corner(mesh, mesh->triangles[3 * (size_t)t + (size_t)k], corner[k]);
+    for (int k = 0; k < 3; ++k) weir_mesh_corner(mesh, mesh->triangles[3 * (size_t)t + (size_t)k], corner[k]);
     double a[3], b[3];
     for (int axis = 0; axis < 3; ++axis) {
         a[axis] = corner[1][axis] - corner[0][axis];
@@ -193,10 +192,10 @@ WeirStatus weir_mesh_check(WeirScene *scene, const WeirMesh *mesh, const char *p
     if (t == UINT32_MAX || (status && strstr(scene->error.text, "no area"))) return status;
     weir_mesh_corner(mesh, mesh->triangles[3 * (size_t)t + edge], from);
     weir_mesh_corner(mesh, mesh->triangles[3 * (size_t)t + (edge + 1) % 3], to);
-    return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                     "%s.mesh: %s at the edge (%g, %g, %g) to (%g, %g, %g) of triangle %u; must be closed, with "
-                     "all normals outwards",
-                     piece,
-                     turned ? "two triangles have opposite normals, or more than two meet," : "has a hole",
-                     from[0], from[1], from[2], to[0], to[1], to[2], t);
+    return weir_fail(
+        &scene->error, WEIR_ERROR_INPUT,
+        "%s.mesh: %s at the edge (%g, %g, %g) to (%g, %g, %g) of triangle %u; must be closed, with "
+        "all normals outwards",
+        piece, turned ? "two triangles have opposite normals, or more than two meet," : "has a hole", from[0],
+        from[1], from[2], to[0], to[1], to[2], t);
 }

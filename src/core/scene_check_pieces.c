@@ -22,10 +22,11 @@ WeirStatus weir_check_inside(WeirScene *scene, const WeirShape *shape, const cha
     for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
         // Box ends like 0.1 * 3 may lie beyond the wall by rounding alone.
         double slack = 1e-9 * (scene->domain_max[axis] - scene->domain_min[axis]);
-        if (low[axis] >= scene->domain_min[axis] - slack && high[axis] <= scene->domain_max[axis] + slack) continue;
+        if (low[axis] >= scene->domain_min[axis] - slack && high[axis] <= scene->domain_max[axis] + slack)
+            continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
                          "%s: reaches from %c = %g to %g; the domain allows %g to %g", piece, "xyz"[axis],
-                         low[axis], high[axis], scene->domain_min[axis], scene->domain_max[axis]);
+                         low[axis], high[axis], scene -> domain_min[axis], scene -> domain_max[axis]);
     }
     return WEIR_OK;
 }
@@ -52,16 +53,16 @@ static WeirStatus check_rows(WeirScene *scene, const WeirMotion *motion, const c
     const WeirMotionRow *first = &motion->rows[0];
     for (int axis = 0; axis < 3; ++axis) {
         if (first->displacement[axis] == 0.0f && first->rotation[axis] == 0.0f) continue;
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%s.motion.rows[0]: is moved already; places are relative to the start, where they are 0",
-                         piece);
+        return weir_fail(
+            &scene->error, WEIR_ERROR_INPUT,
+            "%s.motion.rows[0]: is moved already; places are relative to the start, where they are 0", piece);
     }
     for (uint32_t n = 0; n < motion->row_count; ++n) {
         double time = motion->rows[n].time, before = n > 0 ? motion->rows[n - 1].time : -1e-30;
         if (time > before) continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%s.motion.rows[%u]: its time %g s must be above %g s, that of the row before", piece, n,
-                         time, n > 0 ? before : 0.0);
+                         "%s.motion.rows[%u]: its time %g s must be above %g s, that of the row before",
+                         piece, n, time, n > 0 ? before : 0.0);
     }
     return WEIR_OK;
 }
@@ -71,8 +72,8 @@ static WeirStatus check_motion(WeirScene *scene, const WeirMotion *motion, const
     bool moves = !is_zero(motion->velocity) || !is_zero(motion->angular_velocity);
     bool swings = !is_zero(motion->amplitude) || !is_zero(motion->angle);
     if (moves + swings + (motion->row_count > 0) > 1) {
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%s.motion: has %s and %s; must be one of them", piece, moves ? "a velocity" : "an amplitude",
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s.motion: has %s and %s; must be one of them",
+                         piece, moves ? "a velocity" : "an amplitude",
                          motion->row_count > 0 ? "rows" : "an amplitude");
     }
     if (swings && motion->period == 0.0) return missing(scene, piece, "motion.period");
@@ -90,14 +91,15 @@ static WeirStatus check_name(WeirScene *scene, const WeirSolidPiece *piece, cons
     for (uint32_t n = 0; n < scene->wall_count; ++n) same += strcmp(scene->wall[n].name, piece->name) == 0;
     for (uint32_t n = 0; n < scene->body_count; ++n) same += strcmp(scene->body[n].name, piece->name) == 0;
     if (same == 1) return WEIR_OK;
-    return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s.name: \"%s\" is taken; every name must be another one",
-                     path, piece->name);
+    return weir_fail(&scene->error, WEIR_ERROR_INPUT,
+                     "%s.name: \"%s\" is taken; every name must be another one", path, piece->name);
 }
 
 static WeirStatus check_solid(WeirScene *scene, const WeirSolidPiece *piece, const char *path)
 {
     if (piece->shape.kind == WEIR_SHAPE_NONE)
-        return missing(scene, path, scene->dimension == 3 ? "box, ball, cylinder or mesh" : "box, ball or polygon");
+        return missing(scene, path,
+                       scene->dimension == 3 ? "box, ball, cylinder or mesh" : "box, ball or polygon");
     WeirStatus status = weir_shape_check(scene, &piece->shape, path);
     if (!status) status = check_name(scene, piece, path);
     if (!status && piece->is_driven) status = check_motion(scene, &piece->motion, path);
@@ -125,7 +127,8 @@ static WeirStatus check_emitter(WeirScene *scene, const WeirEmitterPiece *piece,
     if (piece->size == 0.0) return missing(scene, path, "size");
     if (piece->speed == 0.0 && piece->flow_rate == 0.0) return missing(scene, path, "speed or flow_rate");
     if (piece->speed > 0.0 && piece->flow_rate > 0.0) {
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s: has speed and flow_rate; must be one of them", path);
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s: has speed and flow_rate; must be one of them",
+                         path);
     }
     if (piece->stop > 0.0 && piece->stop <= piece->start) {
         return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s: stop = %g s must be after start = %g s", path,
@@ -149,12 +152,13 @@ static WeirStatus check_probe(WeirScene *scene, const WeirProbePiece *piece, con
     bool at_point = piece->kind <= WEIR_PROBE_HEIGHT;
     if (!piece->has_kind) return missing(scene, path, "kind");
     if (at_point && !piece->has_position) return missing(scene, path, "position");
-    if (piece->kind == WEIR_PROBE_FRONT && is_zero(piece->direction)) return missing(scene, path, "direction");
+    if (piece->kind == WEIR_PROBE_FRONT && is_zero(piece->direction))
+        return missing(scene, path, "direction");
     if (piece->kind == WEIR_PROBE_FORCE) {
         if (piece->target[0] == '\0') return missing(scene, path, "target");
         if (weir_scene_solid_index(scene, piece->target) >= 0) return WEIR_OK;
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "%s.target: no wall or body is named \"%s\"", path, piece->target);
+        return weir_fail(&scene->error, WEIR_ERROR_INPUT, "%s.target: no wall or body is named \"%s\"", path,
+                         piece->target);
     }
     if (piece->kind != WEIR_PROBE_MASS) return WEIR_OK;
     if (!piece->has_min) return missing(scene, path, "min");

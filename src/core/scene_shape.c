@@ -218,7 +218,7 @@ double weir_surface_distance(const WeirSurface *surface, const double *point)
     if (shape->kind == WEIR_SHAPE_BOX) return box_distance(shape, surface->dimension, point);
     if (shape->kind == WEIR_SHAPE_CYLINDER) return cylinder_distance(shape, point);
     if (shape->kind == WEIR_SHAPE_POLYGON) return polygon_distance(shape, point);
-    if (shape->kind == WEIR_SHAPE_MESH) return weir_mesh_tree_distance(surface->tree, point);
+    if (shape->kind == WEIR_SHAPE_MESH) return weir_mesh_tree_distance(surface->tree, point, NULL);
     double distance2 = 0.0;
     for (uint32_t k = 0; k < surface->dimension; ++k)
         distance2 += (point[k] - shape->center[k]) * (point[k] - shape->center[k]);

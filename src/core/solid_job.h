@@ -7,10 +7,10 @@
 
 typedef struct WeirSolidJob {
     const WeirSurface *surface;
-    bool around;             // the solid is outside the shape
-    uint32_t layers;         // of particles; UINT32_MAX: all of the solid
+    bool around;     // the solid is outside the shape
+    uint32_t layers; // of particles; UINT32_MAX: all of the solid
     double spacing;
-    bool clipped;            // particles outside low, high are of no use
+    bool clipped; // particles outside low, high are of no use
     double low[3], high[3];
     WeirNear near; // the particles made so far
 } WeirSolidJob;
@@ -31,9 +31,9 @@ void weir_job_cylinder(WeirSolidJob *job);
 void weir_job_polygon(WeirSolidJob *job);
 void weir_job_mesh(WeirSolidJob *job);
 
-// Visits points of a raster of a quarter of a spacing, from the shape's lowest corner, wherever the solid is at
-// most its layers deep; skips the rest by halving boxes.
+// Visits points of a fine raster from the shape's lowest corner, wherever the solid is at
+// most `deepest` metres deep; skips the rest by halving boxes.
 typedef void WeirVisit(WeirSolidJob *job, const double *point);
-void weir_job_scan(WeirSolidJob *job, WeirVisit *visit);
-// Fills what is left: wherever no particle is within 0.75 spacings in 2D, 0.9 in 3D.
+void weir_job_scan(WeirSolidJob *job, WeirVisit *visit, double deepest);
+// Fills what is left: wherever no particle is within 0.73 spacings in 2D, 0.9 in 3D.
 void weir_job_fill(WeirSolidJob *job);

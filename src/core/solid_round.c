@@ -23,7 +23,8 @@ static bool is_site(const WeirSolidJob *job, const WeirAxis *axis, long k)
 }
 
 // Sites of a row that are solid by their column alone; `all`: the row lies in a layer of another axis.
-static void add_row(WeirSolidJob *job, const WeirAxis axes[3], const long k[3], long begin, long end, bool all)
+static void add_row(WeirSolidJob *job, const WeirAxis axes[3], const long k[3], long begin, long end,
+                    bool all)
 {
     long inside = axes[0].sites, hollow = job->around ? 0 : (long)job->layers;
     long skip_to = job->around ? inside : inside - (long)job->layers;
@@ -50,7 +51,8 @@ void weir_job_box(WeirSolidJob *job)
     bool whole = job->layers == UINT32_MAX;
     for (k[2] = begin[2]; k[2] < end[2]; ++k[2]) {
         for (k[1] = begin[1]; k[1] < end[1]; ++k[1]) {
-            bool all = whole || is_site(job, &axes[1], k[1]) || (dimension == 3 && is_site(job, &axes[2], k[2]));
+            bool all =
+                whole || is_site(job, &axes[1], k[1]) || (dimension == 3 && is_site(job, &axes[2], k[2]));
             add_row(job, axes, k, begin[0], end[0], all);
         }
     }

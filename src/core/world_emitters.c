@@ -41,7 +41,8 @@ static void add_points(const WeirBuild *build, const WeirEmitterPiece *piece, We
             double x = ((double)column + 0.5) * build->spacing - half, point[3];
             double y = build->dimension == 3 ? ((double)row + 0.5) * build->spacing - half : 0.0;
             if (x * x + y * y > half * half) continue;
-            for (int axis = 0; axis < 3; ++axis) point[axis] = piece->center[axis] + x * u[axis] + y * v[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] = piece->center[axis] + x * u[axis] + y * v[axis];
             weir_points_add(points, point);
         }
     }
@@ -68,7 +69,8 @@ bool weir_is_in_inlet(const WeirBuild *build, const double *point)
         }
         double half = (0.5 * sites_across(piece, build->spacing) + 0.3) * build->spacing;
         double reach = (double)build->parameters.support_radius + build->spacing;
-        if (along < 0.25 * build->spacing && along > -reach && square - along * along < half * half) return true;
+        if (along < 0.25 * build->spacing && along > -reach && square - along * along < half * half)
+            return true;
     }
     return false;
 }
@@ -85,21 +87,21 @@ static WeirStatus check_room(WeirBuild *build, uint32_t n, const double *point)
             continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
                          "emitters[%u]: blows out of the domain at %c = %g; the domain allows %g to %g", n,
-                         "xyz"[axis], point[axis], scene->domain_min[axis], scene->domain_max[axis]);
+                         "xyz"[axis], point[axis], scene -> domain_min[axis], scene -> domain_max[axis]);
     }
     for (uint32_t w = 0; w < scene->wall_count; ++w) {
         double distance = weir_surface_distance(&build->walls[w], point);
         double gap = scene->wall[w].inside ? -distance : distance;
         if (gap > 0.3 * build->spacing) continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "emitters[%u]: blows into walls[%u] near (%g, %g, %g); move or turn it", n, w, point[0],
-                         point[1], build->dimension == 3 ? point[2] : 0.0);
+                         "emitters[%u]: blows into walls[%u] near (%g, %g, %g); move or turn it", n, w,
+                         point[0], point[1], build->dimension == 3 ? point[2] : 0.0);
     }
     for (uint32_t b = 0; b < scene->body_count; ++b) {
         if (weir_surface_distance(&build->bodies[b], point) > 0.3 * build->spacing) continue;
         return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "emitters[%u]: blows into bodies[%u] near (%g, %g, %g); move or turn it", n, b, point[0],
-                         point[1], build->dimension == 3 ? point[2] : 0.0);
+                         "emitters[%u]: blows into bodies[%u] near (%g, %g, %g); move or turn it", n, b,
+                         point[0], point[1], build->dimension == 3 ? point[2] : 0.0);
     }
     return WEIR_OK;
 }

@@ -73,13 +73,15 @@ static double stretch(const WeirScene *scene, const WeirFluid *fluid, const doub
         r2 += d * d;
     }
     if (fluid->shape.kind != WEIR_SHAPE_BALL || scene->dimension != 2) return 0.0;
-    double factor = 0.5 * scene->parameters.rest_density * (rate * rate + (double)scene->parameters.central_force);
+    double factor =
+        0.5 * scene->parameters.rest_density * (rate * rate + (double)scene->parameters.central_force);
     return factor * fmax(radius * radius - r2, 0.0);
 }
 
 // Linear waves on depth H with k = 2 pi / L: surface A sin(wt) cos(kx), flat at the start, when the velocity is largest and
 // the wave adds no pressure.
-static void standing_wave(const WeirScene *scene, const WeirFluid *fluid, const double *point, double velocity[3])
+static void standing_wave(const WeirScene *scene, const WeirFluid *fluid, const double *point,
+                          double velocity[3])
 {
     double low[3], high[3], sine, cosine;
     weir_shape_bounds(&fluid->shape, scene->dimension, low, high);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROWS_PER_PERIOD = 64 }; // Hermite between them is off by 2e-7 of the amplitude
+enum { ROWS_PER_PERIOD = 64 };         // Hermite between them is off by 2e-7 of the amplitude
 static const double longest_run = 1e4; // s, of a constant velocity
 
 // ---- Rates of a table: through each inner row the parabola over its neighbours, at the ends one side ----
@@ -25,7 +25,8 @@ static void make_rates(WeirMotionRow *rows, uint32_t count, bool repeats)
         double ta = a->time, tc = c->time;
         // A table that repeats goes on from its end to its start.
         bool wraps = repeats && count > 2 && (n == 0 || n + 1 == count);
-        if (wraps && n == 0) a = &rows[count - 2], ta = (double)b->time - ((double)rows[count - 1].time - a->time);
+        if (wraps && n == 0)
+            a = &rows[count - 2], ta = (double)b->time - ((double)rows[count - 1].time - a->time);
         if (wraps && n > 0) c = &rows[1], tc = (double)b->time + ((double)c->time - rows[0].time);
         for (int axis = 0; axis < 3; ++axis) {
             double shift[2] = {0.0, 0.0}; // what a period adds
@@ -71,7 +72,8 @@ static void fill_rows(const WeirMotion *motion, WeirMotionRow *rows)
         rows[n] = (WeirMotionRow){.time = (float)time};
         for (int axis = 0; axis < 3; ++axis) {
             double pace = swings ? 2.0 * WEIR_PI / motion->period : 0.0;
-            rows[n].displacement[axis] = (float)(swings ? sine * motion->amplitude[axis] : time * motion->velocity[axis]);
+            rows[n].displacement[axis] =
+                (float)(swings ? sine * motion->amplitude[axis] : time * motion->velocity[axis]);
             rows[n].rotation[axis] =
                 (float)(swings ? sine * motion->angle[axis] : time * motion->angular_velocity[axis]);
             rows[n].displacement_rate[axis] =
@@ -104,8 +106,7 @@ WeirStatus weir_build_motions(WeirBuild *build)
     }
     if (world->motion_count == 0) return WEIR_OK;
     world->motion = calloc(world->motion_count, sizeof *world->motion);
-    if (!world->motion)
-        return weir_fail(&build->scene->error, WEIR_ERROR_MEMORY, "motion: memory ran out");
+    if (!world->motion) return weir_fail(&build->scene->error, WEIR_ERROR_MEMORY, "motion: memory ran out");
     for (uint32_t s = 0; s < world->solid_count; ++s) {
         if (world->solids[s].motion_count > 0)
             fill_rows(&piece_of(build->scene, s)->motion, &world->motion[world->solids[s].motion_first]);

@@ -94,7 +94,8 @@ static bool is_covered(const WeirBuild *build, const WeirNear *taken, uint32_t e
     if (weir_is_in_inlet(build, point)) return true;
     if (weir_near_within(taken, point, 0.5 * build->spacing * (1.0 - 1e-6))) return true;
     for (uint32_t n = 0; n < end; ++n) {
-        if (!build->scene->wall[n].is_driven && wall_depth(build, n, point) > 1e-6 * build->spacing) return true;
+        if (!build->scene->wall[n].is_driven && wall_depth(build, n, point) > 1e-6 * build->spacing)
+            return true;
     }
     return false;
 }
@@ -300,8 +301,9 @@ WeirStatus weir_build_trim_fluid(WeirBuild *build)
         }
         begin = end;
         if (kept > build->first[n]) continue;
-        return weir_fail(&scene->error, WEIR_ERROR_INPUT,
-                         "fluid[%u]: lies inside walls or bodies, or too close to them: nothing is left of it", n);
+        return weir_fail(
+            &scene->error, WEIR_ERROR_INPUT,
+            "fluid[%u]: lies inside walls or bodies, or too close to them: nothing is left of it", n);
     }
     build->first[scene->fluid_count] = build->fluid.count = kept;
     return WEIR_OK;
