@@ -44,7 +44,7 @@ fn fold(time: vec2u, first: f32, last: f32) -> vec2u {
     for (var shift = 20i; shift >= 0; shift--) {
         let k = u32(shift);
         let part = vec2u(length.x << k, (length.y << k) | select(0u, length.x >> (32u - max(k, 1u)), k > 0u));
-        let fits = k == 0u || length.y >> (32u - max(k, 1u)) == 0u;
+        let fits = k == 0u || (length.y >> (32u - max(k, 1u))) == 0u;
         if fits && !is_before(rest, part) {
             rest = subtract_ticks(rest, part);
         }

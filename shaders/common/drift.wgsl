@@ -16,8 +16,8 @@ fn is_outside(at: Vector) -> bool {
         if (axis == 0u && PERIODIC_X) || (axis == 1u && PERIODIC_Y) || (axis == 2u && PERIODIC_Z) {
             continue;
         }
-        let low = select(reach, 0.0, (constants.open_sides >> (2u * axis) & 1u) != 0u);
-        let high = select(reach, 0.0, (constants.open_sides >> (2u * axis + 1u) & 1u) != 0u);
+        let low = select(reach, 0.0, ((constants.open_sides >> (2u * axis)) & 1u) != 0u);
+        let high = select(reach, 0.0, ((constants.open_sides >> (2u * axis + 1u)) & 1u) != 0u);
         if at[axis] < constants.domain_min[axis] - low || at[axis] > constants.domain_max[axis] + high {
             return true;
         }

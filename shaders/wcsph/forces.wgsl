@@ -177,17 +177,17 @@ fn wants_force(group: u32) -> bool {
     return FORCES_READ || (FREE_SOLIDS && solid_table[group - GROUP_SOLID].kind == SOLID_FREE);
 }
 
-// Most threads see at once that theirs is not the largest.
+// Most threads see at once that theirs is not the largest. What is not finite is a matter for health.
 fn take_speed(square: f32) {
     let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&control.speed_bits) {
+    if bits > atomicLoad(&control.speed_bits) && is_finite(square) {
         atomicMax(&control.speed_bits, bits);
     }
 }
 
 fn take_acceleration(square: f32) {
     let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&control.acceleration_bits) {
+    if bits > atomicLoad(&control.acceleration_bits) && is_finite(square) {
         atomicMax(&control.acceleration_bits, bits);
     }
 }

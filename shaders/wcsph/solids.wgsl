@@ -28,7 +28,10 @@ fn kicked_solid(n: u32) -> SolidState {
     state.force = vec4f(sums[0], 0.0);
     state.torque = vec4f(sums[1], 0.0);
     state = kicked_free(n, state, sums[0] + sums[2], sums[1] + sums[3], control.dt);
-    atomicMax(&largest, bitcast<u32>(length(state.acceleration.xyz)));
+    let acceleration = length(state.acceleration.xyz);
+    if is_finite(acceleration) {
+        atomicMax(&largest, bitcast<u32>(acceleration));
+    }
     return state;
 }
 

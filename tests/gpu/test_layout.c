@@ -1,7 +1,8 @@
-// Every field of Parameters and Constants, as a shader sees it, is the one that C wrote: a pass
-// echoes all of them.
+// Every field of every struct that C and the shaders share is, as a shader sees it, the one that C wrote: a pass echoes
+// all of them.
 #include "adapter.h"
 #include "gpu/mueller.h"
+#include "gpu/wcsph.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,11 +10,13 @@
 
 typedef enum Kind { VECTOR, NUMBER, COUNT } Kind;
 
-static const struct Field {
-    const char *owner, *name;
+typedef struct Field {
+    const char *owner, *name; // owner.name is the shader's expression
     Kind kind;
     size_t offset;
-} fields[] = {
+} Field;
+
+static const Field fields[] = {
 #define WEIR_VECTOR(name, ...) {"parameters", #name, VECTOR, offsetof(WeirParameters, name)},
 #define WEIR_NUMBER(name, ...) {"parameters", #name, NUMBER, offsetof(WeirParameters, name)},
 #define WEIR_CHOICE(name, ...) {"parameters", #name, COUNT, offsetof(WeirParameters, name)},
@@ -22,17 +25,105 @@ static const struct Field {
 #define WEIR_CONSTANT_NUMBER(name, help) {"constants", #name, NUMBER, offsetof(WeirConstants, name)},
 #define WEIR_CONSTANT_COUNT(name, help)  {"constants", #name, COUNT, offsetof(WeirConstants, name)},
 #include "core/constants.inl"
+#define SOLID(name, kind) {"solid_table[1]", #name, kind, sizeof(WeirSolid) + offsetof(WeirSolid, name)}
+    SOLID(kind, COUNT),
+    SOLID(no_slip, COUNT),
+    SOLID(first, COUNT),
+    SOLID(count, COUNT),
+    SOLID(motion_first, COUNT),
+    SOLID(motion_count, COUNT),
+    SOLID(motion_repeats, COUNT),
+    SOLID(mass, NUMBER),
+    SOLID(surface_velocity, VECTOR),
+    SOLID(freedom, VECTOR),
+    SOLID(angular_freedom, VECTOR),
+    SOLID(inverse_inertia[0], VECTOR),
+    SOLID(inverse_inertia[2], VECTOR),
+    SOLID(position, VECTOR),
+    SOLID(velocity, VECTOR),
+    SOLID(angular_velocity, VECTOR),
+#define EMITTER(name, kind)                                                                                  \
+    {"flows.emitters[3]", #name, kind, 3 * sizeof(WeirEmitter) + offsetof(WeirEmitter, name)}
+    EMITTER(point_first, COUNT),
+    EMITTER(point_count, COUNT),
+    EMITTER(speed, NUMBER),
+    EMITTER(start, NUMBER),
+    EMITTER(stop, NUMBER),
+    EMITTER(direction, VECTOR),
+    EMITTER(center, VECTOR),
+    {"flows.drains[2]", "low", VECTOR,
+     offsetof(WeirWcsphFlows, drains) + 2 * sizeof(WeirDrain) + offsetof(WeirDrain, min)},
+    {"flows.drains[2]", "high", VECTOR,
+     offsetof(WeirWcsphFlows, drains) + 2 * sizeof(WeirDrain) + offsetof(WeirDrain, max)},
+#define STATE(name)                                                                                          \
+    {"solid_state[2]", #name, VECTOR, 2 * sizeof(WeirSolidState) + offsetof(WeirSolidState, name)}
+    STATE(position),
+    STATE(orientation),
+    STATE(velocity),
+    STATE(angular_velocity),
+    STATE(acceleration),
+    STATE(angular_acceleration),
+    STATE(force),
+    STATE(torque),
+#define CONTROL(name, kind) {"control", #name, kind, offsetof(WeirWcsphControl, name)}
+    {"control", "until.x", COUNT, offsetof(WeirWcsphControl, until)},
+    {"control", "until.y", COUNT, offsetof(WeirWcsphControl, until) + 4},
+    {"control", "time.x", COUNT, offsetof(WeirWcsphControl, time)},
+    {"control", "time.y", COUNT, offsetof(WeirWcsphControl, time) + 4},
+    CONTROL(steps_left, COUNT),
+    CONTROL(running, COUNT),
+    CONTROL(finishing, COUNT),
+    CONTROL(steps, COUNT),
+    CONTROL(dt, NUMBER),
+    CONTROL(free_dt, NUMBER),
+    CONTROL(last_dt, NUMBER),
+    CONTROL(drift_half, NUMBER),
+    CONTROL(max_speed, NUMBER),
+    CONTROL(speed_bits, COUNT),
+    CONTROL(acceleration_bits, COUNT),
+    CONTROL(error_bits, COUNT),
+    CONTROL(bad_particles, COUNT),
+    CONTROL(bad_step, COUNT),
+    CONTROL(bad_id, COUNT),
+    CONTROL(starting, COUNT),
+    CONTROL(bad_place, VECTOR),
+    CONTROL(drained, COUNT),
+    CONTROL(lost, COUNT),
+    CONTROL(emitted, COUNT),
+    CONTROL(restored, COUNT),
+    CONTROL(due[5], VECTOR),
 };
-enum { FIELDS = sizeof fields / sizeof fields[0], ECHO_BINDING = 2 };
+enum { FIELDS = sizeof fields / sizeof fields[0], SOLIDS = 3 };
+
+// The buffers that the pass reads, by what the fields' owners start with, and the one that it writes, last.
+typedef struct Source {
+    const char *owner;
+    uint32_t binding;
+    WGPUBufferBindingType type;
+    uint64_t size;
+} Source;
+static const Source sources[] = {
+    {"parameters", WEIR_WCSPH_parameters, WGPUBufferBindingType_Uniform, sizeof(WeirParameters)},
+    {"constants", WEIR_WCSPH_constants, WGPUBufferBindingType_Uniform, sizeof(WeirConstants)},
+    {"solid_table", WEIR_WCSPH_solid_table, WGPUBufferBindingType_Uniform, SOLIDS * sizeof(WeirSolid)},
+    {"flows", WEIR_WCSPH_flows, WGPUBufferBindingType_Uniform, sizeof(WeirWcsphFlows)},
+    {"solid_state", WEIR_WCSPH_solid_state, WGPUBufferBindingType_ReadOnlyStorage,
+     SOLIDS * sizeof(WeirSolidState)},
+    {"control", WEIR_WCSPH_control, WGPUBufferBindingType_ReadOnlyStorage, sizeof(WeirWcsphControl)},
+    {"echo", WEIR_WCSPH_kicked, WGPUBufferBindingType_Storage, 16 * FIELDS},
+};
+enum { SOURCES = sizeof sources / sizeof sources[0], ECHO = SOURCES - 1 };
 
 // One vec4 of 32-bit words per field; those that it does not fill are 0.
 static char *make_shader(void)
 {
-    static char body[16384];
-    size_t length = (size_t)snprintf(body, sizeof body,
-                                     "@group(0) @binding(%d) var<storage, read_write> echo: array<vec4u>;\n"
-                                     "@compute @workgroup_size(1) fn echo_fields() {\n",
-                                     ECHO_BINDING);
+    static char body[32768], settings[WEIR_SETTINGS_LENGTH];
+    size_t length = (size_t)snprintf(
+        body, sizeof body,
+        "@group(0) @binding(BINDING_kicked) var<storage, read_write> echo: array<vec4u>;\n"
+        "@group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;\n"
+        "@group(0) @binding(BINDING_control) var<storage, read> control: Control;\n"
+        "@compute @workgroup_size(1) fn echo_fields() {\n");
     static const char *const forms[] = {
         [VECTOR] = "    echo[%d] = bitcast<vec4u>(%s.%s);\n",
         [NUMBER] = "    echo[%d] = vec4u(bitcast<u32>(%s.%s), 0u, 0u, 0u);\n",
@@ -44,12 +135,16 @@ static char *make_shader(void)
     }
     length += (size_t)snprintf(body + length, sizeof body - length, "}\n");
     assert_true(length < sizeof body);
-    char *source = weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, NULL, body);
+    WeirParameters parameters = {0};
+    WeirConstants constants = {0};
+    weir_gpu_wcsph_settings(&parameters, &constants,
+                            &(WeirWcsphTraits){.dimension = 2, .solid_count = SOLIDS}, settings);
+    char *source = weir_pass_source(weir_gpu_wcsph_method(2), settings, 1, NULL, body);
     assert_non_null(source);
     return source;
 }
 
-// Every word of both structs gets a value of its own.
+// Every word gets a value of its own.
 static void fill(void *data, size_t size, uint32_t first)
 {
     for (uint32_t word = 0; word < size / 4; ++word) {
@@ -58,11 +153,10 @@ static void fill(void *data, size_t size, uint32_t first)
     }
 }
 
-// The pass that echoes, and its three buffers: the uniforms and the echo.
+// The pass that echoes, and its buffers.
 typedef struct Echo {
     WeirGpu *gpu;
-    uint64_t size[3];
-    WGPUBuffer buffer[3];
+    WGPUBuffer buffer[SOURCES];
     WGPUBindGroupLayout layout;
     WGPUBindGroup group;
     WGPUComputePipeline pipeline;
@@ -70,24 +164,25 @@ typedef struct Echo {
 
 static void make_echo(Echo *echo, WeirGpu *gpu)
 {
-    *echo = (Echo){.gpu = gpu, .size = {sizeof(WeirParameters), sizeof(WeirConstants), 16 * FIELDS}};
-    WGPUBindGroupLayoutEntry layout[3] = {0};
-    WGPUBindGroupEntry entries[3] = {0};
-    for (uint32_t n = 0; n < 3; ++n) {
-        bool uniform = n != ECHO_BINDING;
+    *echo = (Echo){.gpu = gpu};
+    WGPUBindGroupLayoutEntry layout[SOURCES] = {0};
+    WGPUBindGroupEntry entries[SOURCES] = {0};
+    for (int n = 0; n < SOURCES; ++n) {
+        const Source *source = &sources[n];
+        bool uniform = source->type == WGPUBufferBindingType_Uniform;
         WGPUBufferUsage usage = uniform ? WGPUBufferUsage_Uniform : WGPUBufferUsage_Storage;
         echo->buffer[n] = weir_gpu_create_buffer(
-            gpu, "echo", usage | WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc, echo->size[n]);
-        layout[n] = (WGPUBindGroupLayoutEntry){.binding = n,
-                                               .visibility = WGPUShaderStage_Compute,
-                                               .buffer.type = uniform ? WGPUBufferBindingType_Uniform
-                                                                      : WGPUBufferBindingType_Storage};
-        entries[n] = (WGPUBindGroupEntry){.binding = n, .buffer = echo->buffer[n], .size = echo->size[n]};
+            gpu, "echo", usage | WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc, source->size);
+        layout[n] = (WGPUBindGroupLayoutEntry){
+            .binding = source->binding, .visibility = WGPUShaderStage_Compute, .buffer.type = source->type};
+        entries[n] =
+            (WGPUBindGroupEntry){.binding = source->binding, .buffer = echo->buffer[n], .size = source->size};
     }
     echo->layout = wgpuDeviceCreateBindGroupLayout(
-        gpu->device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = layout});
+        gpu->device, &(WGPUBindGroupLayoutDescriptor){.entryCount = SOURCES, .entries = layout});
     echo->group = wgpuDeviceCreateBindGroup(
-        gpu->device, &(WGPUBindGroupDescriptor){.layout = echo->layout, .entryCount = 3, .entries = entries});
+        gpu->device,
+        &(WGPUBindGroupDescriptor){.layout = echo->layout, .entryCount = SOURCES, .entries = entries});
     char *source = make_shader();
     WeirReport *report = weir_report_create(gpu);
     echo->pipeline = weir_pass_pipeline(gpu, "echo_fields", "pass echo", source, echo->layout, report);
@@ -103,7 +198,7 @@ static void free_echo(Echo *echo)
     wgpuComputePipelineRelease(echo->pipeline);
     wgpuBindGroupRelease(echo->group);
     wgpuBindGroupLayoutRelease(echo->layout);
-    for (int n = 0; n < 3; ++n) weir_gpu_destroy_buffer(echo->gpu, echo->buffer[n], echo->size[n]);
+    for (int n = 0; n < SOURCES; ++n) weir_gpu_destroy_buffer(echo->gpu, echo->buffer[n], sources[n].size);
 }
 
 // Runs the pass; the readback is ready then.
@@ -116,8 +211,8 @@ static WeirReadback *run_echo(const Echo *echo)
     wgpuComputePassEncoderDispatchWorkgroups(pass, 1, 1, 1);
     wgpuComputePassEncoderEnd(pass);
     wgpuComputePassEncoderRelease(pass);
-    WeirReadback *readback = weir_readback_create(echo->gpu, "echo readback", echo->size[ECHO_BINDING]);
-    weir_readback_copy(readback, encoder, echo->buffer[ECHO_BINDING], 0, echo->size[ECHO_BINDING]);
+    WeirReadback *readback = weir_readback_create(echo->gpu, "echo readback", sources[ECHO].size);
+    weir_readback_copy(readback, encoder, echo->buffer[ECHO], 0, sources[ECHO].size);
     weir_gpu_submit(echo->gpu, encoder, "echo");
     weir_readback_start(readback);
     while (weir_readback_state(readback) != WEIR_READBACK_READY)
@@ -125,29 +220,40 @@ static WeirReadback *run_echo(const Echo *echo)
     return readback;
 }
 
+static const char *written_to(char *const data[ECHO], const Field *field)
+{
+    for (int n = 0; n < ECHO; ++n) {
+        if (strncmp(field->owner, sources[n].owner, strlen(sources[n].owner)) == 0)
+            return data[n] + field->offset;
+    }
+    fail_msg("%s: no such buffer", field->owner);
+    return NULL;
+}
+
 static void every_field_arrives(void **state)
 {
     Echo echo;
     make_echo(&echo, *state);
-    WeirParameters parameters;
-    WeirConstants constants;
-    fill(&parameters, sizeof parameters, 1000);
-    fill(&constants, sizeof constants, 2000);
-    wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[0], 0, &parameters, sizeof parameters);
-    wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[1], 0, &constants, sizeof constants);
+    char *data[ECHO];
+    for (int n = 0; n < ECHO; ++n) {
+        data[n] = malloc(sources[n].size);
+        assert_non_null(data[n]);
+        fill(data[n], sources[n].size, 1000 * (uint32_t)(n + 1));
+        wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[n], 0, data[n], sources[n].size);
+    }
     WeirReadback *readback = run_echo(&echo);
     const uint32_t *seen = weir_readback_data(readback);
     assert_non_null(seen);
     for (int n = 0; n < FIELDS; ++n) {
-        bool first = strcmp(fields[n].owner, "parameters") == 0;
-        const char *written = (first ? (char *)&parameters : (char *)&constants) + fields[n].offset;
+        const char *written = written_to(data, &fields[n]);
         if (memcmp(seen + 4 * n, written, fields[n].kind == VECTOR ? 16 : 4) != 0)
             fail_msg("%s.%s: C wrote 0x%x, the shader reads 0x%x", fields[n].owner, fields[n].name,
-                     (unsigned)*(const uint32_t *)written, (unsigned)seen[4 * n]);
+                     (unsigned)*(const uint32_t *)(const void *)written, (unsigned)seen[4 * n]);
     }
     weir_readback_finish(readback);
     weir_readback_destroy(readback);
     free_echo(&echo);
+    for (int n = 0; n < ECHO; ++n) free(data[n]);
 }
 
 int main(void)

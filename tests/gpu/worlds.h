@@ -37,3 +37,14 @@ void weir_test_world_motion(WeirTestWorld *test, WeirSolid *solid, const float (
 
 // A solver of `backend` for it; fails the test if there is none.
 WeirSolver *weir_test_world_solver(const WeirTestWorld *test, const WeirBackend *backend);
+
+// world_cases.c: worlds that between them have everything, with a number of steps that shows it.
+typedef struct WeirTestCase {
+    const char *name;
+    void (*build)(WeirTestWorld *test);
+    uint32_t steps;
+} WeirTestCase;
+extern const WeirTestCase weir_test_cases[];
+extern const uint32_t weir_test_case_count;
+// The one of that name.
+WeirTestWorld weir_test_case(const char *name);

@@ -1,0 +1,334 @@
+// How runs of `wcsph` on the GPU behave: equal bits, batches, end times, health, the last good state, live parameters.
+#include "adapter.h"
+#include "gpu/wcsph.h"
+#include "worlds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static WeirGpu *gpu;
+
+static void take_steps(WeirSolver *solver, uint32_t steps, double until)
+{
+    WeirStatus status = solver->interface->step(solver, steps, until);
+    if (status == WEIR_OK) status = solver->interface->wait(solver);
+    if (status != WEIR_OK) fail_msg("step: %s", solver->message.text);
+}
+
+static WeirHealth health_of(WeirSolver *solver)
+{
+    WeirHealth health;
+    assert_int_equal(solver->interface->wait(solver), WEIR_OK);
+    assert_int_equal(solver->interface->poll(solver, &health), WEIR_OK);
+    return health;
+}
+
+static WeirState read_state(WeirSolver *solver)
+{
+    WeirState state;
+    WeirStatus status = solver->interface->read(solver, &state);
+    if (status != WEIR_OK) fail_msg("read: %s", solver->message.text);
+    return state;
+}
+
+static uint64_t mix(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *bytes = data;
+    for (size_t n = 0; n < size; ++n) hash = (hash ^ bytes[n]) * 1099511628211u;
+    return hash;
+}
+
+// Of all that a state holds.
+static uint64_t hash_of(WeirSolver *solver, uint32_t solids)
+{
+    WeirState state = read_state(solver);
+    size_t vectors = sizeof(float) * state.count * state.dimension;
+    uint64_t hash = mix(14695981039346656037u, state.position, vectors);
+    hash = mix(hash, state.velocity, vectors);
+    hash = mix(hash, state.acceleration, vectors);
+    hash = mix(hash, state.density, sizeof(float) * state.count);
+    hash = mix(hash, state.pressure, sizeof(float) * state.count);
+    hash = mix(hash, state.group, sizeof(uint32_t) * state.count);
+    return mix(hash, state.solids, solids * sizeof *state.solids);
+}
+
+typedef struct Course {
+    WeirGpu *gpu;
+    uint32_t steps, at_a_time;
+    bool reads; // in between
+} Course;
+
+static uint64_t run(const char *name, Course course)
+{
+    WeirTestWorld test = weir_test_case(name);
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(course.gpu));
+    for (uint32_t done = 0; done < course.steps; done += course.at_a_time) {
+        take_steps(solver, course.at_a_time, INFINITY);
+        if (course.reads) read_state(solver);
+    }
+    uint64_t hash = hash_of(solver, test.world.solid_count);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+    return hash;
+}
+
+static const char *const lively[] = {"piston_2d", "bodies_2d", "body_3d", "tap_2d", "periodic_3d"};
+enum { LIVELY = sizeof lively / sizeof lively[0] };
+
+// The same bits run to run, however the steps are cut into calls, and whether somebody reads in between.
+static void equal_runs_give_equal_bits(void **state)
+{
+    (void)state;
+    for (int n = 0; n < LIVELY; ++n) {
+        uint64_t once = run(lively[n], (Course){gpu, 24, 24, false});
+        assert_true(run(lively[n], (Course){gpu, 24, 24, false}) == once);
+        assert_true(run(lively[n], (Course){gpu, 24, 8, false}) == once);
+        assert_true(run(lively[n], (Course){gpu, 24, 1, true}) == once);
+        assert_true(run(lively[n], (Course){gpu, 25, 25, false}) != once);
+    }
+}
+
+// Dispatches in two dimensions, and shaders without run-time checks, change nothing.
+static void dispatches_and_checks_change_nothing(void **state)
+{
+    (void)state;
+    WeirGpu *trusted = weir_test_gpu(&(WeirGpuOptions){.trusted_shaders = true});
+    for (int n = 0; n < LIVELY; ++n) {
+        uint64_t once = run(lively[n], (Course){gpu, 10, 10, false});
+        uint32_t own = gpu->max_groups;
+        gpu->max_groups = 3;
+        assert_true(run(lively[n], (Course){gpu, 10, 10, false}) == once);
+        gpu->max_groups = own;
+        assert_true(run(lively[n], (Course){trusted, 10, 10, false}) == once);
+    }
+    weir_gpu_destroy(trusted);
+}
+
+// A run ends exactly where it was asked to, and what was asked beyond it does not count.
+static void runs_end_in_time(void **state)
+{
+    (void)state;
+    WeirTestWorld test = weir_test_case("bodies_2d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    take_steps(solver, 200, 0.02);
+    WeirHealth first = health_of(solver);
+    CHECK_NEAR(first.time, 0.02, 1e-12);
+    assert_true(first.steps > 5 && first.steps < 199);
+    uint64_t hash = hash_of(solver, test.world.solid_count);
+    // Nothing is left to do.
+    take_steps(solver, 10, 0.02);
+    assert_int_equal(health_of(solver).steps, first.steps);
+    assert_true(hash_of(solver, test.world.solid_count) == hash);
+    CHECK_NEAR(read_state(solver).time, 0.02, 1e-12);
+    // And on.
+    take_steps(solver, 200, 0.0301);
+    WeirHealth second = health_of(solver);
+    CHECK_NEAR(second.time, 0.0301, 1e-12);
+    assert_true(second.steps > first.steps && second.steps < 199);
+    assert_int_equal(read_state(solver).step, second.steps);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
+static void set_bad(WeirTestWorld *test, uint32_t id, float density, float speed)
+{
+    test->world.particles.density[id] = density;
+    test->world.particles.velocity[test->world.particles.dimension * id] = speed;
+}
+
+static bool all_finite(const float *values, size_t count)
+{
+    for (size_t n = 0; n < count; ++n)
+        if (!isfinite(values[n])) return false;
+    return true;
+}
+
+// One particle that cannot be is found in its first step, with its place; its neighbours may be found with it.
+static void a_blow_up_is_found(void **state)
+{
+    (void)state;
+    static const float bad[][2] = {{NAN, 0}, {INFINITY, 0}, {1000, NAN}, {1000, 1e30f}, {1000, 25}};
+    for (size_t n = 0; n < sizeof bad / sizeof bad[0]; ++n) {
+        WeirTestWorld test = weir_test_case("dam_2d");
+        const double *place = test.world.particles.position + 2 * 57;
+        set_bad(&test, 57, bad[n][0], bad[n][1]);
+        WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+        take_steps(solver, 30, INFINITY);
+        WeirHealth health = health_of(solver);
+        assert_true(health.bad_particles > 0);
+        assert_int_equal(health.first_bad_step, 1);
+        assert_true(health.first_bad_id <= 57);
+        CHECK_NEAR(health.first_bad_position[0], place[0], 0.4);
+        CHECK_NEAR(health.first_bad_position[1], place[1], 0.4);
+        // It stopped there.
+        take_steps(solver, 5, INFINITY);
+        assert_true(health_of(solver).steps <= 1);
+        read_state(solver);
+        solver->interface->destroy(solver);
+        weir_test_world_free(&test);
+    }
+}
+
+// What is read after a blow-up is the state just before it: whole, finite, below the speed of sound.
+static void the_last_good_state_is_kept(void **state)
+{
+    (void)state;
+    for (int known = 0; known < 2; ++known) {
+        WeirTestWorld test = weir_test_case("bodies_2d");
+        weir_test_gravity(test.scene, -1000, 0);
+        weir_test_choose(test.scene, "stepping", "fixed");
+        weir_test_set(test.scene, "time_step", 0.001);
+        WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+        assert_int_equal(solver->interface->step(solver, 400, INFINITY), WEIR_OK);
+        if (known) health_of(solver); // otherwise the read is the first to learn of it
+        WeirState last = read_state(solver);
+        WeirHealth health = health_of(solver);
+        assert_true(health.bad_particles > 0);
+        assert_true(health.first_bad_step > 2 && health.first_bad_step < 400);
+        assert_int_equal(last.step, health.first_bad_step - 1);
+        CHECK_NEAR(last.time, 0.001 * ((double)last.step + 0.5), 1e-8);
+        assert_true(all_finite(last.position, 2 * last.count));
+        assert_true(all_finite(last.velocity, 2 * last.count));
+        assert_true(all_finite(last.density, last.count));
+        assert_true(all_finite(last.acceleration, 2 * last.count));
+        float fastest = 0;
+        for (uint32_t i = 0; i < test.world.particles.fluid_slots; ++i)
+            fastest = fmaxf(fastest, hypotf(last.velocity[2 * i], last.velocity[2 * i + 1]));
+        assert_true(fastest > 1 && fastest <= 20);
+        assert_true(all_finite(last.solids[1].position, 4));
+        // It stays, and a new state goes on.
+        uint64_t hash = hash_of(solver, test.world.solid_count);
+        take_steps(solver, 3, INFINITY);
+        assert_true(hash_of(solver, test.world.solid_count) == hash);
+        assert_int_equal(solver->interface->set_state(solver, &test.world.particles), WEIR_OK);
+        assert_int_equal(health_of(solver).bad_particles, 0);
+        take_steps(solver, 1, INFINITY);
+        assert_int_equal(health_of(solver).steps, 1);
+        solver->interface->destroy(solver);
+        weir_test_world_free(&test);
+    }
+}
+
+// A tap and a drain for a long time: no particle appears from nowhere or vanishes, and slots are used again.
+static void taps_never_run_dry(void **state)
+{
+    (void)state;
+    WeirTestWorld test = weir_test_case("tap_2d");
+    test.world.emitters[0].start = 0;
+    test.world.emitters[0].stop = 100;
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    uint32_t slots = test.world.particles.fluid_slots;
+    for (int n = 0; n < 8; ++n) {
+        take_steps(solver, 100, INFINITY);
+        WeirHealth health = health_of(solver);
+        WeirState now = read_state(solver);
+        uint32_t fluid = 0, empty = 0;
+        for (uint32_t i = 0; i < slots; ++i) {
+            fluid += now.group[i] != WEIR_GROUP_EMPTY;
+            empty += now.group[i] == WEIR_GROUP_EMPTY;
+        }
+        assert_int_equal(health.bad_particles, 0);
+        assert_int_equal(health.fluid_particles, fluid);
+        assert_int_equal(fluid + empty, slots);
+        for (uint32_t i = slots; i < now.count; ++i) assert_int_equal(now.group[i], WEIR_GROUP_SOLID);
+    }
+    const WeirWcsphControl *seen = &((WeirWcsphGpu *)solver)->seen;
+    assert_true(seen->emitted > 5 + 3 * 3); // more than there were empty slots: some were used twice
+    assert_true(seen->drained > 20);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
+// What may change while it runs takes effect, also where it needs other pipelines.
+static void parameters_change_while_it_runs(void **state)
+{
+    (void)state;
+    WeirTestWorld test = weir_test_case("dam_2d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    WeirGpuSolver *common = (WeirGpuSolver *)solver;
+    take_steps(solver, 5, INFINITY);
+    WeirParameters parameters = common->parameters;
+    WeirConstants constants = common->constants;
+    parameters.gravity[0] = 500;
+    parameters.shifting = 0;
+    parameters.density_diffusion = 0;
+    parameters.viscosity = 3;
+    assert_int_equal(solver->interface->configure(solver, &parameters, &constants), WEIR_OK);
+    float before = read_state(solver).acceleration[2 * 30];
+    assert_true(before > 300);
+    uint64_t memory = weir_gpu_memory(gpu);
+    take_steps(solver, 5, INFINITY);
+    assert_true(weir_gpu_memory(gpu) == memory);
+    constants.cell_count += 1;
+    assert_int_equal(solver->interface->configure(solver, &parameters, &constants), WEIR_ERROR_INPUT);
+    CHECK_CONTAINS(solver->message.text, "new simulation");
+    take_steps(solver, 5, INFINITY);
+    assert_int_equal(health_of(solver).steps, 15);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
+static void passes_are_timed(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"count",  "scan_reduce",  "scan_write", "scatter", "walls",
+                                        "forces", "solid_forces", "solids",     "kick",    "continuity"};
+    WeirTestWorld test = weir_test_case("body_3d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    take_steps(solver, 3, INFINITY);
+    WeirPassTime times[WEIR_MAX_PASSES];
+    uint32_t count = solver->interface->pass_times(solver, times, WEIR_MAX_PASSES);
+    if (gpu->timestamps) {
+        assert_int_equal(count, sizeof names / sizeof names[0]);
+        for (uint32_t n = 0; n < count; ++n) assert_string_equal(times[n].name, names[n]);
+    }
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
+// All memory is given back, and a device that is too small says which buffer and how many particles would fit.
+static void memory_is_bounded(void **state)
+{
+    (void)state;
+    assert_true(weir_gpu_memory(gpu) == 0);
+    WeirTestWorld test = weir_test_case("dam_3d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    CHECK_AT_MOST((double)weir_gpu_memory(gpu) / test.world.particles.count, 600.0);
+    take_steps(solver, 2, INFINITY);
+    solver->interface->destroy(solver);
+    assert_true(weir_gpu_memory(gpu) == 0);
+    uint64_t own = gpu->limits.maxStorageBufferBindingSize;
+    gpu->limits.maxStorageBufferBindingSize = 32768;
+    WeirSolverSetup setup = {.method = WEIR_METHOD_WCSPH, .world = &test.world};
+    setup.constants = (WeirConstants){.particle_count = test.world.particles.count, .dimension = 3};
+    setup.constants.first_solid = test.world.particles.fluid_slots;
+    setup.constants.cell_count = 1000;
+    WeirStatus status = WEIR_OK;
+    WeirMessage message = {""};
+    assert_null(weir_gpu_backend(gpu)->create_solver(weir_gpu_backend(gpu), &setup, &status, &message));
+    gpu->limits.maxStorageBufferBindingSize = own;
+    assert_int_equal(status, WEIR_ERROR_MEMORY);
+    CHECK_CONTAINS(message.text, "particle_spacing");
+    assert_true(weir_gpu_memory(gpu) == 0);
+    weir_test_world_free(&test);
+}
+
+int main(void)
+{
+    gpu = weir_test_gpu(NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(equal_runs_give_equal_bits),
+        cmocka_unit_test(dispatches_and_checks_change_nothing),
+        cmocka_unit_test(runs_end_in_time),
+        cmocka_unit_test(a_blow_up_is_found),
+        cmocka_unit_test(the_last_good_state_is_kept),
+        cmocka_unit_test(taps_never_run_dry),
+        cmocka_unit_test(parameters_change_while_it_runs),
+        cmocka_unit_test(passes_are_timed),
+    };
+    int failed = cmocka_run_group_tests_name("wcsph_run", tests, NULL, NULL);
+    weir_gpu_destroy(gpu);
+    return failed;
+}

@@ -1,0 +1,66 @@
+// The solver of wcsph on WebGPU as browsers check it (Dawn in Node): every shader compiles, and follows the C solver.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { Field, Weir, type Sim } from '../../src/weir.ts';
+import { gpu as browser, until, wasmFile } from './support.ts';
+
+const weir = await Weir.load(wasmFile('weir.wasm'), { gpu: browser });
+const gpu = weir.createGpu();
+await gpu.ready();
+after(() => {
+  gpu.destroy();
+  assert.equal(weir.liveGpuObjects, 0, 'handles are left');
+});
+
+const spacing = 0.05;
+const box = (min: number[], max: number[]) => ({ box: { min, max } });
+const tank = {
+  version: 1,
+  method: 'wcsph',
+  dimension: 2,
+  parameters: { particle_spacing: spacing, viscosity: 2, shifting: 1 },
+  domain: { min: [0, 0], max: [0.8, 0.6] },
+  fluid: [{ ...box([0, 0], [0.4, 0.4]), velocity: [1, 0] }],
+};
+// Some of everything that has a shader of its own.
+const lively = {
+  ...tank,
+  walls: [{ name: 'gate', ...box([0.7, 0], [0.8, 0.3]), motion: { amplitude: [-0.02, 0], period: 0.1 } }],
+  bodies: [{ name: 'block', ...box([0.5, 0.3], [0.65, 0.45]), density: 500 }],
+  emitters: [{ center: [0.2, 0.55], direction: [0, -1], size: 0.15, speed: 2, capacity: 50 }],
+  drains: [{ min: [0.3, 0], max: [0.4, 0.1] }],
+};
+const deep = {
+  ...tank,
+  dimension: 3,
+  domain: { min: [0, 0, 0], max: [0.5, 0.4, 0.3], periodic: 'z' },
+  fluid: [{ ...box([0, 0, 0], [0.25, 0.3, 0.3]), velocity: [1, 0, 0] }],
+};
+
+function start(scene: object, onGpu: boolean): Sim {
+  const loaded = weir.loadScene(scene);
+  const sim = weir.createSim(loaded, onGpu ? { gpu } : {});
+  loaded.destroy();
+  return sim;
+}
+
+async function follow(document: object, steps: number, tolerance: number): Promise<void> {
+  const sims = [start(document, false), start(document, true)];
+  const fields: Float32Array[] = [];
+  for (const sim of sims) {
+    sim.step(steps);
+    fields.push((await until(() => (sim.poll(), sim.read(Field.position)), 'read')).slice());
+  }
+  const [expected, found] = fields as [Float32Array, Float32Array];
+  assert.equal(found.length, expected.length);
+  const off = found.reduce((most, value, k) => Math.max(most, Math.abs(value - (expected[k] as number))), 0);
+  assert.ok(off < tolerance * spacing, `positions differ by ${off} m`);
+  const moved = start(document, false);
+  const before = moved.read(Field.position) as Float32Array;
+  assert.ok(expected.some((value, k) => Math.abs(value - (before[k] as number)) > 0.1 * spacing), 'nothing moved');
+  for (const sim of [...sims, moved]) sim.destroy();
+}
+
+test('2D: 40 steps of a tank follow the C solver', () => follow(tank, 40, 1e-3));
+test('2D: moving wall, body, emitter and drain', () => follow(lively, 40, 5e-3));
+test('3D: 20 steps follow the C solver', () => follow(deep, 20, 1e-3));
