@@ -12,7 +12,7 @@ struct Edge {
 fn edges_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) index: u32) -> Edge {
     // Four edges along each axis.
     let axis = index / 4u;
-    let turn = vec2f(f32(index & 1u), f32(index >> 1u & 1u));
+    let turn = vec2f(f32(index & 1u), f32((index >> 1u) & 1u));
     var corner = vec3f(0.0, turn);
     if axis == 1u { corner = vec3f(turn.x, 0.0, turn.y); }
     if axis == 2u { corner = vec3f(turn, 0.0); }

@@ -28,7 +28,7 @@ fn occlusion_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     if middle > 0.99e6 * frame.near { return vec4f(0.0, middle, 0.0, 1.0); }
     // Each pixel of a 4 x 4 block looks in other directions; the last pass takes the mean of such a block.
     let cell = vec2u(place.xy) & vec2u(3u);
-    let turn = f32(cell.x * 4u + cell.y ^ (cell.x * 7u & 3u)) / 16.0;
+    let turn = f32((cell.x * 4u + cell.y) ^ ((cell.x * 7u) & 3u)) / 16.0;
     var sum = 0.0;
     for (var k = 0u; k < pairs; k++) {
         let part = (f32(k) + turn) / f32(pairs);

@@ -18,7 +18,7 @@ fn arriving_light(point: vec3f, radius: f32) -> f32 {
     let texel = light_texel(light);
     var sum = 0.0;
     for (var k = 0u; k < 5u; k++) {
-        let step = select(vec2f(0.0), (vec2f(f32(k & 1u), f32(k >> 1u & 1u)) - 0.5) * 5.0, k < 4u);
+        let step = select(vec2f(0.0), (vec2f(f32(k & 1u), f32((k >> 1u) & 1u)) - 0.5) * 5.0, k < 4u);
         let at = clamp(texel + step, vec2f(0.0), vec2f(shadow_size - 1.0));
         let first = textureLoad(shadow_map, vec2u(at), 0);
         sum += exp(-frame.absorption * max((light.z - first) * frame.light_range - 1.5 * radius, 0.0));

@@ -49,7 +49,7 @@ test('a point appears where the engine draws it, turned, shifted and zoomed', ()
 });
 
 test('the whole domain is seen, in the free part of the window, as large as it goes', () => {
-  const places = corners.map((corner) => camera().toClient(corner) ?? [NaN, NaN]);
+  const places = corners.map((corner): [number, number] => camera().toClient(corner) ?? [NaN, NaN]);
   const [xs, ys] = [places.map((place) => place[0]), places.map((place) => place[1])];
   assert.ok(Math.min(...xs) > 20 && Math.max(...xs) < width / ratio - 200, String(xs));
   assert.ok(Math.min(...ys) > 30 && Math.max(...ys) < height / ratio - 60, String(ys));
