@@ -2,7 +2,7 @@
 fn pressure_of(density: f32) -> f32 {
     let stiffness = constants.sound_speed * constants.sound_speed;
     if TAIT {
-        let ratio = density / parameters.rest_density;
+        let ratio = density * (1.0 / parameters.rest_density);
         let cube = ratio * ratio * ratio;
         return parameters.rest_density * stiffness / 7.0 * (cube * cube * ratio - 1.0)
             + parameters.background_pressure;

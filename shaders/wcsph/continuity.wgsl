@@ -29,7 +29,7 @@ fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
             let other = sorted_coordinate[j];
             let offset = Vector(walk.place - place_of(other));
             let r_squared = dot(offset, offset);
-            if r_squared < support * support {
+            if BRANCH_FREE || r_squared < support * support {
                 let neighbor = kicked[j];
                 let slope = kernel_slope(sqrt(r_squared) * constants.inverse_support) / neighbor.w;
                 divergence += slope * dot(velocity - vector_of(neighbor), offset);

@@ -37,6 +37,7 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     let support = f32(1u << constants.coordinate_bits);
     let h = constants.smoothing_length * constants.inverse_quantum;
     let soft = 0.01 * h * h;
+    let inverse_spacing_value = 1.0 / constants.spacing_value;
     let velocity = vector_of(own_motion);
     let stick = sticks(u32(own.w));
     var sums: Sums;
@@ -49,10 +50,12 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
             let r_squared = dot(offset, offset);
             let group = u32(other.w);
             let fluid = !HAS_SOLIDS || is_fluid(group);
-            if r_squared < support * support && (fluid || !solid) {
+            let acts = fluid || !solid;
+            // The kernel is 0 beyond the support: no branch is needed.
+            if BRANCH_FREE || (acts && r_squared < support * support) {
                 let neighbor = sorted_motion[j];
                 let s = sqrt(r_squared) * constants.inverse_support;
-                let slope = kernel_slope(s) / neighbor.w;
+                let slope = select(0.0, kernel_slope(s) / neighbor.w, acts);
                 var pressure = pressure_of(neighbor.w);
                 if TAIT && !fluid {
                     pressure = linear_pressure(neighbor.w);
@@ -69,7 +72,7 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                     sums.laminar += (slope * stick * sticks(group)) * relative;
                 }
                 if SHIFTING {
-                    let near = power4(kernel_shape(s) / constants.spacing_value);
+                    let near = power4(kernel_shape(s) * inverse_spacing_value);
                     sums.clustering += (slope * near) * offset;
                 }
                 sums.surface += slope * r_squared;

@@ -210,6 +210,31 @@ static void the_last_good_state_is_kept(void **state)
     }
 }
 
+// The upper body overtakes the lower one, and contact holds them apart: no two of their particles come closer than half a
+// spacing.
+static void bodies_push_each_other(void **state)
+{
+    (void)state;
+    WeirTestWorld test = weir_test_case("bodies_2d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    take_steps(solver, 300, 0.06);
+    WeirState now = read_state(solver);
+    CHECK_NEAR(now.time, 0.06, 1e-12);
+    const WeirSolid *low = &test.world.solids[1], *high = &test.world.solids[2];
+    double nearest = 9;
+    for (uint32_t i = low->first; i < low->first + low->count; ++i) {
+        for (uint32_t j = high->first; j < high->first + high->count; ++j) {
+            double x = (double)now.position[2 * i] - (double)now.position[2 * j];
+            double y = (double)now.position[2 * i + 1] - (double)now.position[2 * j + 1];
+            nearest = fmin(nearest, hypot(x, y));
+        }
+    }
+    assert_true(nearest > 0.5 * test.spacing && nearest < 1.3 * test.spacing);
+    assert_true(now.solids[2].velocity[1] > -3.5f); // it was -4
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
 // A tap and a drain for a long time: no particle appears from nowhere or vanishes, and slots are used again.
 static void taps_never_run_dry(void **state)
 {
@@ -324,6 +349,7 @@ int main(void)
         cmocka_unit_test(runs_end_in_time),
         cmocka_unit_test(a_blow_up_is_found),
         cmocka_unit_test(the_last_good_state_is_kept),
+        cmocka_unit_test(bodies_push_each_other),
         cmocka_unit_test(taps_never_run_dry),
         cmocka_unit_test(parameters_change_while_it_runs),
         cmocka_unit_test(passes_are_timed),

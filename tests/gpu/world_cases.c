@@ -128,11 +128,11 @@ static void bodies_2d(WeirTestWorld *test)
     *test = start(2, 1.2, 0.9, 0);
     weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){1.2, 0.3, 0}, 0.05, 0.1);
     weir_test_world_sides(test);
-    const double low[2][3] = {{0.3, 0.35, 0}, {0.35, 0.55, 0}}, high[2][3] = {{0.6, 0.5, 0}, {0.55, 0.7, 0}};
+    const double low[2][3] = {{0.3, 0.35, 0}, {0.35, 0.52, 0}}, high[2][3] = {{0.6, 0.5, 0}, {0.55, 0.67, 0}};
     for (int n = 0; n < 2; ++n) {
         WeirSolid *body = weir_test_world_solid(test, WEIR_SOLID_FREE, low[n], high[n], NOWHERE);
         weir_test_world_body(test, body, low[n], high[n], 600);
-        body->velocity[1] = -1.5f;
+        body->velocity[1] = n ? -4.0f : -1.5f; // the second hits the first
         body->angular_velocity[2] = n ? 2.0f : -1.0f;
     }
 }
