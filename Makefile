@@ -1,9 +1,10 @@
 # The front door: every target first installs what it needs and is missing (tools/setup.sh), then hands over to
 # CMake, Ninja and npm.
 .DEFAULT_GOAL := all
-.PHONY: all run check bench docs format format-check clean setup help native page
+.PHONY: all run check bench validate docs format format-check clean setup help native page
 MAKEFLAGS += --no-print-directory
 PORT ?= 8080
+RESOLUTION ?= normal
 
 all: ## build the command line program, build/weir
 	@tools/setup.sh native
@@ -22,6 +23,11 @@ bench: ## measure speed: C, GPU, wasm and plain JavaScript; tables go to build/b
 	@tools/setup.sh native web
 	@tools/build.sh native page
 	@bench/run.sh
+
+validate: ## run the published cases, compare with their references, write build/validation/report.html (RESOLUTION=coarse|normal|fine, DOCS=1)
+	@tools/setup.sh native report
+	@tools/build.sh native
+	@tools/validate.sh $(RESOLUTION)
 
 docs: ## write docs/parameters.md and docs/scene.schema.json anew from the parameter list
 	@tools/setup.sh native

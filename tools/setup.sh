@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what a build needs and is missing; says what before it does. Fast when all is there.
-#   tools/setup.sh [native] [web] [check]
+#   tools/setup.sh [native] [web] [check] [report]
 #     native  compiler, CMake, Ninja, jansson, wgpu-native: build/weir
 #     web     clang for wasm, Node and the page's npm packages: the page
 #     check   browsers, software Vulkan, clang-format, cmocka: the tests
+#     report  matplotlib: the report of `make validate`
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -12,6 +13,7 @@ native_packages="gcc libc6-dev cmake ninja-build pkg-config libjansson-dev libvu
 web_packages="clang-19 lld-19 llvm-19 wasi-libc libclang-rt-19-dev-wasm32"
 check_packages="clang-19 clang-format-19 libclang-rt-19-dev libcmocka-dev python3-jsonschema mesa-vulkan-drivers
                 chromium firefox-esr fonts-dejavu-core"
+report_packages="python3-matplotlib"
 node_minimum=18
 
 stop() {
@@ -45,7 +47,8 @@ wanted_packages() {
             fi
             ;;
         check) echo "$check_packages" ;;
-        *) stop "tools/setup.sh: unknown scope '$scope' (native, web, check)" ;;
+        report) echo "$report_packages" ;;
+        *) stop "tools/setup.sh: unknown scope '$scope' (native, web, check, report)" ;;
         esac
     done
 }
