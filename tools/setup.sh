@@ -46,7 +46,7 @@ wanted_packages() {
                 command -v npm >/dev/null || echo npm
             fi
             ;;
-        check) echo "$check_packages" ;;
+        check) echo "$check_packages $report_packages" ;;
         report) echo "$report_packages" ;;
         *) stop "tools/setup.sh: unknown scope '$scope' (native, web, check, report)" ;;
         esac

@@ -86,7 +86,7 @@ static double judge_line(WeirValidation *v, const Line *line, uint32_t flow, boo
 
 static void judge(WeirValidation *v)
 {
-    static const double limits[FLOWS] = {0.015, 0.02, 0.03}, coarse[FLOWS] = {0.06, 0.08, 0.12};
+    static const double limits[FLOWS] = {0.015, 0.02, 0.03}, coarse[FLOWS] = {0.06, 0.12, 0.2};
     const Cavity *cavity = v->data;
     for (uint32_t flow = 0; flow < FLOWS; ++flow) {
         char name[80];

@@ -279,7 +279,7 @@ static void judge_free(WeirValidation *v)
     weir_gate_add(v, "change of momentum per step over sum m |v|", "1", WEIR_GATE_AT_MOST,
                   measured ? data->momentum_drift : (double)NAN, NAN, 1e-7);
     weir_gate_add(v, "change of angular momentum", "1", WEIR_GATE_AT_MOST,
-                  measured ? data->angular_drift : (double)NAN, NAN, 1e-3);
+                  measured ? data->angular_drift : (double)NAN, NAN, weir_limit(v, 2e-3, 1e-3));
     weir_gate_add(v, "growth of energy above the start's", "1", WEIR_GATE_AT_MOST,
                   measured ? data->energy_growth : (double)NAN, NAN, 1e-4);
 }

@@ -65,6 +65,14 @@ class Validate(WeirTest):
         folders = sorted(path.parent.name for path in (SOURCE / "validation").glob("*/README.md"))
         self.assertEqual(sorted(self.names()), folders)
 
+    def test_scenes_of_cases_run_unchanged(self):
+        for path in sorted((SOURCE / "validation").glob("*/scene*.json")):
+            with self.subTest(path=path.parent.name):
+                spacing = json.loads(path.read_text())["parameters"]["particle_spacing"]
+                # Coarser, so that the start alone is quick; it must divide the same lengths.
+                self.weir("run", path, "--steps", 0, "--backend", "cpu", "--quiet", "--set",
+                          f"particle_spacing={2 * spacing}")
+
     def test_unknown_case(self):
         errors = self.refused("validate", "poiseuile", says=("unknown case 'poiseuile'", "'poiseuille'"))
         self.assertIn("--list", errors)
