@@ -8,13 +8,13 @@ const root = fileURLToPath(new URL('.', import.meta.url));
 const sceneFolder = resolve(root, '../scenes');
 const wasmFile = process.env['WEIR_WASM'] ?? resolve(root, '../build/wasm/apps/web/weir.wasm');
 
-// What the page opens with, and what comes next in each group.
-const order = ['dam_break_2d', 'floating_bodies', 'water'];
+// First in their groups, in this order; the page opens with the first one.
+const order = ['floating_3d', 'dam_3d', 'floating_2d', 'dam_2d', 'weir', 'wave_maker', 'water'];
 
 type Entry = { name: string; title: string; group: string };
 
 // Groups of the chooser, in its order.
-const groups = ['2D', '3D', 'Classic (2D)'];
+const groups = ['3D', '2D', 'Classic (2D)'];
 
 function entryOf(file: string): Entry {
   const document = JSON.parse(readFileSync(resolve(sceneFolder, file), 'utf8')) as { title?: string; method?: string; dimension?: number };

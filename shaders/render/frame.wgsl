@@ -42,6 +42,8 @@ struct Frame {
     light_range: f32,            // 3D: that depth 0 to 1 of the shadow map spans, m
     absorption: f32,             // 3D: of light in the fluid, 1/m
     occlusion_radius: f32,       // 3D: m
+    disc_radius: f32,            // 2D: of wall and body particles, pixels
+    faint_sides: u32,            // 2D: bit 2 axis + (0 low, 1 high): no wall is there
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -29,14 +29,17 @@ struct Overlay {
     @location(0) @interpolate(flat) side: u32,
 }
 
-fn outline(pixel: vec2f) -> vec4f {
+fn outline(pixel: vec2f, side: u32) -> vec4f {
     let distance = domain_distance(pixel);
-    let alpha = 0.75 * line_coverage(distance, 1.25 * frame.line_scale);
-    return vec4f(to_target(line_color) * (alpha + 0.10 * line_glow(distance)), alpha);
+    // Top, right, bottom, left; where no wall is the line is faint.
+    let bit = array(3u, 1u, 2u, 0u)[side];
+    let strength = select(1.0, 0.22, ((frame.faint_sides >> bit) & 1u) != 0u);
+    let alpha = 0.75 * strength * line_coverage(distance, 1.25 * frame.line_scale);
+    return vec4f(to_target(line_color) * (alpha + 0.10 * strength * line_glow(distance)), alpha);
 }
 
 @fragment
 fn overlay_fragment(overlay: Overlay) -> @location(0) vec4f {
     if overlay.side == 4u { return ring(overlay.place.xy, to_pixels(frame.tool_position.xy), frame.tool_radius); }
-    return outline(overlay.place.xy);
+    return outline(overlay.place.xy, overlay.side);
 }

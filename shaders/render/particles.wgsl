@@ -6,6 +6,7 @@ struct Disc {
     @builtin(position) place: vec4f,
     @location(0) offset: vec2f, // pixels from the centre, y down
     @location(1) @interpolate(flat) color: vec3f,
+    @location(2) @interpolate(flat) look: vec2f, // radius, pixels; 1 for a bead, 0 for a flat disc
 }
 
 @vertex
@@ -16,7 +17,9 @@ fn particles_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
         disc.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
         return disc;
     }
-    let corner = square_corner(vertex) * max(frame.particle_radius + 0.5, 1.5);
+    let radius = select(frame.disc_radius, frame.particle_radius, kind == FLUID);
+    let corner = square_corner(vertex) * max(radius + 0.5, 1.5);
+    disc.look = vec2f(radius, select(0.0, 1.0, kind == FLUID));
     disc.place = to_clip(to_pixels(particle_position(particle).xy) + corner);
     disc.offset = corner;
     disc.color = to_target(particle_color(particle, kind));
@@ -38,11 +41,11 @@ fn disc_coverage(distance: f32, radius: f32) -> f32 {
 
 @fragment
 fn particles_fragment(disc: Disc) -> @location(0) vec4f {
-    let radius = frame.particle_radius;
+    let radius = disc.look.x;
     let distance = length(disc.offset);
     let alpha = disc_coverage(distance, radius);
     // Big enough discs look like beads: darker rim, a small light from above left.
-    let detail = smoothstep(1.5, 5.0, radius);
+    let detail = disc.look.y * smoothstep(1.5, 5.0, radius);
     let part = distance / radius;
     let rim = 1.0 - vec3f(0.46, 0.38, 0.28) * (detail * smoothstep(0.35, 1.05, part));
     let from_light = length(disc.offset / radius + vec2f(0.42, 0.42));

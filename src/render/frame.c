@@ -102,6 +102,12 @@ WeirLook weir_scene_look(const WeirScene *scene, uint32_t solid)
 
 static void fill_solids(WeirFrame *frame, const WeirScene *scene)
 {
+    for (uint32_t axis = 0; axis < 2; axis++) {
+        for (uint32_t side = 0; side < 2; side++) {
+            bool faint = scene->periodic[axis] || scene->open[axis][side];
+            frame->faint_sides |= (uint32_t)faint << (2 * axis + side);
+        }
+    }
     frame->first_body = first_wall(scene) + scene->wall_count;
     for (uint32_t solid = 0; solid < frame->first_body && solid < 128; solid++) {
         if (weir_scene_look(scene, solid) == WEIR_LOOK_HIDDEN) frame->hidden[solid / 32] |= 1u << solid % 32;
@@ -113,6 +119,8 @@ static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParamete
     float scale = view->pixels_per_meter;
     frame->pixels_per_meter = scale;
     frame->particle_radius = view->particle_radius * scale;
+    // Larger than half a spacing, so that walls and bodies look closed.
+    frame->disc_radius = fmaxf(0.72f * parameters->particle_spacing * scale, frame->particle_radius);
     frame->water_radius = fmaxf(1.5f * parameters->particle_spacing * scale, 1.5f);
     frame->tool_radius = fmaxf(view->tool_radius, 0.0f) * scale;
     // mueller's walls hold the particles' centres; wcsph's are where the lattice's half spacing ends.

@@ -26,12 +26,14 @@ typedef struct WeirFrame {
     float border, rest_density, sound_speed, background_pressure;
     float quantum, sphere_radius, solid_radius, near;
     float pixel_size, light_range, absorption, occlusion_radius;
+    float disc_radius;
+    uint32_t faint_sides, unused[2];
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");
 _Static_assert(offsetof(WeirFrame, tool_radius) == 224, "frame.wgsl: tool_radius");
 _Static_assert(offsetof(WeirFrame, border) == 272, "frame.wgsl: border");
-_Static_assert(sizeof(WeirFrame) == 320, "frame.wgsl: size, a multiple of 16");
+_Static_assert(sizeof(WeirFrame) == 336, "frame.wgsl: size, a multiple of 16");
 
 // Refuses what cannot be drawn and says why.
 WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,

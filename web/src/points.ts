@@ -30,7 +30,7 @@ export const floatsPerParticle = (dimension: number): number => 2 * dimension + 
 
 const uniformNames = [
   'center', 'size', 'domain_min', 'domain_max', 'tool_position', 'tool_radius', 'tool_pressed', 'color_min',
-  'color_scale', 'pixels_per_meter', 'particle_radius', 'water_radius', 'border', 'line_scale', 'rest_density', 'color_by',
+  'color_scale', 'pixels_per_meter', 'particle_radius', 'water_radius', 'disc_radius', 'border', 'line_scale', 'rest_density', 'color_by',
   'eye', 'right', 'up', 'ahead', 'projection', 'near', 'pixel_size', 'sphere_radius', 'solid_radius',
 ] as const;
 type Uniforms = Record<(typeof uniformNames)[number], WebGLUniformLocation | null>;
@@ -154,6 +154,7 @@ class WebglPoints implements PointsRenderer {
     gl.uniform1f(at.tool_radius, view.toolRadius * scale);
     gl.uniform1f(at.pixels_per_meter, scale);
     gl.uniform1f(at.particle_radius, radius);
+    gl.uniform1f(at.disc_radius, Math.max(0.72 * frame.particleSpacing * scale, radius));
     gl.uniform1f(at.border, frame.border > 0 ? Math.max(radius - frame.border * scale, 0) + 0.6 : radius);
     gl.uniform1f(at.water_radius, Math.max(1.7 * frame.particleSpacing * scale, 1.5));
   }

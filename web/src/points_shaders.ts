@@ -5,7 +5,7 @@ precision highp float;
 precision highp int;
 uniform vec2 center, size, domain_min, domain_max, tool_position;
 uniform float tool_radius, tool_pressed, color_min, color_scale, pixels_per_meter, particle_radius, water_radius,
-    border, line_scale, rest_density;
+    disc_radius, border, line_scale, rest_density;
 uniform int color_by;
 vec2 to_pixels(vec2 point) {
   return (point - center) * pixels_per_meter * vec2(1.0, -1.0) + 0.5 * size;
@@ -109,16 +109,19 @@ const particles = {
   vertex: `${frame}${particleInputs('vec2')}
 out vec2 offset;
 flat out vec3 color;
+flat out vec2 shape; // radius; 1 for a bead, 0 for a flat disc
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   if (look < -0.5) return;
-  offset = square_corner(gl_VertexID) * max(particle_radius + 0.5, 1.5);
+  shape = look < 0.5 ? vec2(particle_radius, 1.0) : vec2(disc_radius, 0.0);
+  offset = square_corner(gl_VertexID) * max(shape.x + 0.5, 1.5);
   gl_Position = to_clip(to_pixels(position) + offset);
   color = particle_color();
 }`,
   fragment: `${frame}${pixel}
 in vec2 offset;
 flat in vec3 color;
+flat in vec2 shape;
 float disc_coverage(float distance, float radius) {
   float edge = sqrt(max(radius * radius - 1.0 / 12.0, 0.25)) + 0.5;
   float crisp = clamp(edge - distance, 0.0, 1.0);
@@ -127,9 +130,9 @@ float disc_coverage(float distance, float radius) {
   return mix(soft, crisp, smoothstep(0.6, 0.85, radius));
 }
 void main() {
-  float radius = particle_radius, distance = length(offset);
+  float radius = shape.x, distance = length(offset);
   float alpha = disc_coverage(distance, radius);
-  float detail = smoothstep(1.5, 5.0, radius);
+  float detail = shape.y * smoothstep(1.5, 5.0, radius);
   float rim = 1.0 - 0.38 * detail * smoothstep(0.35, 1.05, distance / radius);
   float from_light = length(offset / radius + vec2(0.42));
   float light = 0.30 * detail * (1.0 - smoothstep(0.0, 0.36, from_light));
