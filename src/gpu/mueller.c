@@ -44,7 +44,7 @@ static uint32_t steps_per_submit(const WeirGpuSolver *solver)
     // Candidates are about three times the neighbours pi (h / spacing)^2.
     double candidates =
         parameters->search == WEIR_SEARCH_ALL_PAIRS ? count : fmin(count, 3.0 * 3.14 * ratio * ratio);
-    return weir_steps_per_submit(solver->gpu, 2.0 * count * candidates);
+    return weir_steps_per_submit(solver, 2.0 * count * candidates);
 }
 
 // The device counts steps itself; only a read or a new state puts it out of step with the host.
@@ -82,8 +82,8 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
     (void)until; // steps of one length: the caller counts them
     WeirMueller *solver = (WeirMueller *)base;
-    uint32_t most = steps_per_submit(&solver->common);
     weir_profile_poll(solver->common.profile);
+    uint32_t most = steps_per_submit(&solver->common);
     bool measured = weir_profile_ready(solver->common.profile);
     while (steps > 0) {
         WeirStatus status = weir_gpu_solver_check(&solver->common);

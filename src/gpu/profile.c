@@ -99,6 +99,13 @@ void weir_profile_poll(WeirProfile *profile)
     weir_readback_finish(profile->readback);
 }
 
+double weir_profile_step(const WeirProfile *profile)
+{
+    double total = 0.0;
+    for (uint32_t n = 0; profile && n < profile->time_count; ++n) total += profile->times[n].milliseconds;
+    return total;
+}
+
 uint32_t weir_profile_times(const WeirProfile *profile, WeirPassTime *times, uint32_t capacity)
 {
     if (!profile) return 0;

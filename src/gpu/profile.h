@@ -21,4 +21,6 @@ void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder);
 void weir_profile_submitted(WeirProfile *profile);
 // Takes times that have arrived.
 void weir_profile_poll(WeirProfile *profile);
+// Milliseconds of the step measured last, all passes; 0 if none is known.
+double weir_profile_step(const WeirProfile *profile);
 uint32_t weir_profile_times(const WeirProfile *profile, WeirPassTime *times, uint32_t capacity);

@@ -1,8 +1,9 @@
 #include "gpu/solver.h"
 #include "gpu/platform.h"
 
-// Pairs that a submit may visit, and steps of one submit, after which more would no longer hide anything.
-static const double pairs_per_submit = 3e8;
+// Time of a submit, pairs that it may visit while no step was measured, and steps of one, after which more would no
+// longer hide anything.
+static const double milliseconds_per_submit = 40.0, pairs_per_submit = 3e8;
 enum { MAX_STEPS_PER_SUBMIT = 64 };
 
 // ---- Making ----
@@ -117,9 +118,11 @@ void weir_recorder_end(const WeirRecorder *recorder)
     }
 }
 
-uint32_t weir_steps_per_submit(const WeirGpu *gpu, double pairs)
+uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs)
 {
-    double steps = pairs_per_submit * (gpu->software ? 0.01 : 1.0) / pairs;
+    double measured = weir_profile_step(solver->profile);
+    double steps = measured > 0.0 ? milliseconds_per_submit / measured
+                                  : pairs_per_submit * (solver->gpu->software ? 0.01 : 1.0) / pairs;
     return steps < 1.0 ? 1 : steps > MAX_STEPS_PER_SUBMIT ? MAX_STEPS_PER_SUBMIT : (uint32_t)steps;
 }
 

@@ -63,9 +63,9 @@ WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder enc
 void weir_record(const WeirRecorder *recorder, uint32_t pass);
 void weir_recorder_end(const WeirRecorder *recorder);
 
-// Steps that one submit may hold, if a step visits `pairs` candidates: about 50 ms on an integrated GPU, after which a
-// watchdog or a browser's frame would suffer.
-uint32_t weir_steps_per_submit(const WeirGpu *gpu, double pairs);
+// Steps that one submit may hold: less than 50 ms, after which a watchdog or a browser's frame would suffer. By the
+// step measured last; before there is one, by the candidates `pairs` that a step visits, as on an integrated GPU.
+uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs);
 
 // The parts of WeirSolverInterface that are the same for all.
 WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);

@@ -69,16 +69,15 @@ static uint32_t steps_per_submit(const WeirGpuSolver *solver)
     double count = solver->constants.particle_count;
     double ratio = parameters->support_radius / parameters->particle_spacing;
     double neighbors = solver->constants.dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.14 * ratio * ratio;
-    return weir_steps_per_submit(solver->gpu, 2.0 * count * fmin(count, 3.0 * neighbors));
+    return weir_steps_per_submit(solver, 2.0 * count * fmin(count, 3.0 * neighbors));
 }
 
-// Up to `steps` steps in one submit. `first`, `last`: of the batch that the caller asked for.
-static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool last)
+// Up to `steps` steps in one submit, the first of them measured if wished. `first`, `last`: of the batch that the caller
+// asked for.
+static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool last, bool measured)
 {
     WeirGpuSolver *common = &solver->common;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "step");
-    weir_profile_poll(common->profile);
-    bool measured = first && weir_profile_ready(common->profile);
     WeirRecorder recorder;
     if (first) {
         recorder = weir_recorder_begin(common, encoder);
@@ -119,10 +118,12 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     write_ticks(until, request.until);
     wgpuQueueWriteBuffer(common->gpu->queue, common->buffers.handle[WEIR_WCSPH_control], 0, &request,
                          offsetof(WeirWcsphControl, running));
+    weir_profile_poll(common->profile);
+    bool measured = weir_profile_ready(common->profile);
     uint32_t most = steps_per_submit(common);
     for (uint32_t done = 0; done < steps && status == WEIR_OK;) {
         uint32_t batch = steps - done < most ? steps - done : most;
-        submit_steps(solver, batch, done == 0, done + batch == steps);
+        submit_steps(solver, batch, done == 0, done + batch == steps, measured && done == 0);
         done += batch;
         status = weir_gpu_solver_check(common);
     }
