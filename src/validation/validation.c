@@ -204,13 +204,16 @@ WeirStatus weir_validation_begin(WeirValidation *v, uint32_t run, WeirSim *sim)
         v->run = run;
         v->samples = 0;
         v->begun = true;
-        v->run_is_done = false;
-        WeirStatus status = v->the_case->begin ? v->the_case->begin(v, sim) : WEIR_OK;
-        if (status && status != WEIR_PENDING) {
-            v->run_is_done = true;
-            return refuse(v, status, weir_sim_error(sim));
-        }
+        v->run_is_done = v->is_set_up = false;
     }
+    WeirStatus status = WEIR_OK;
+    if (!v->is_set_up && v->the_case->begin) status = v->the_case->begin(v, sim);
+    if (status == WEIR_PENDING) return status;
+    if (status) {
+        v->run_is_done = true;
+        return refuse(v, status, weir_sim_error(sim));
+    }
+    v->is_set_up = true;
     return take_sample(v, sim);
 }
 

@@ -54,7 +54,7 @@ struct WeirValidation {
     uint32_t run_count, gate_count, curve_count;
     uint32_t run; // present one
     uint64_t samples;
-    bool begun, run_is_done, out_of_memory;
+    bool begun, is_set_up, run_is_done, out_of_memory; // is_set_up: the case has changed what it wants to
     WeirMessage error;
     void *data;
 };
