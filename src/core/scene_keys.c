@@ -6,7 +6,7 @@
 
 // Short names for the table: fields of the owner's struct, limits.
 #define AT(Type, field)          .offset = offsetof(Type, field)
-#define HAS(Type, field)         .has_offset = offsetof(Type, field)
+#define HAS(Type, field)         .has_offset = offsetof(Type, field) + 1
 #define COORDINATES              .low = -WEIR_COORDINATE_LIMIT, .high = WEIR_COORDINATE_LIMIT
 #define SPEEDS                   .low = -WEIR_SPEED_LIMIT, .high = WEIR_SPEED_LIMIT
 #define LENGTH                   .low = 0.0, .high = WEIR_COORDINATE_LIMIT, .above = true

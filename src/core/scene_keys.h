@@ -43,7 +43,7 @@ typedef struct WeirSceneKey {
     const char *name;
     WeirKeyKind kind;
     size_t offset;     // of the field in its owner's struct
-    size_t has_offset; // of the bool that says that it was given; 0: none
+    size_t has_offset; // of the bool that says that it was given, plus 1; 0: none
     double low, high;  // allowed range of each number; low itself is excluded if `above`
     bool above;
     WeirOwner object;

@@ -139,7 +139,7 @@ static WeirStatus set_key(WeirScene *scene, WeirOwner owner, void *base, const c
     }
     if (status) return status;
     if (key->shape != WEIR_SHAPE_NONE) ((WeirShape *)field)->kind = key->shape;
-    if (key->has_offset) *(bool *)((char *)base + key->has_offset) = true;
+    if (key->has_offset) *(bool *)((char *)base + key->has_offset - 1) = true;
     return WEIR_OK;
 }
 
