@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what a build needs and is missing; says what before it does. Fast when all is there.
 #   tools/setup.sh [native] [web] [check] [report]
-#     native  compiler, CMake, Ninja, jansson, wgpu-native: build/weir
+#     native  compiler, CMake, Ninja, jansson, assimp, wgpu-native: build/weir
 #     web     clang for wasm, Node and the page's npm packages: the page
 #     check   browsers, software Vulkan, clang-format, cmocka: the tests
 #     report  matplotlib: the report of `make validate`
@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Debian package names; versions are those of the distribution, the rest is pinned by hash.
-native_packages="gcc libc6-dev cmake ninja-build pkg-config libjansson-dev libvulkan1 python3 python3-pip ca-certificates"
+native_packages="gcc libc6-dev cmake ninja-build pkg-config libjansson-dev libassimp-dev libvulkan1 python3 python3-pip ca-certificates"
 web_packages="clang-19 lld-19 llvm-19 wasi-libc libclang-rt-19-dev-wasm32"
 check_packages="clang-19 clang-format-19 libclang-rt-19-dev libcmocka-dev python3-jsonschema mesa-vulkan-drivers
                 chromium firefox-esr fonts-dejavu-core"

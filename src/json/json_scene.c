@@ -1,6 +1,7 @@
 // The walk: objects extend the path by ".key", lists of objects by "[index]"; numbers, texts, booleans and lists of
 // numbers are set; anything else is refused by the core, which knows what the path should hold.
 #include "json/json_scene.h"
+#include "json/scene_files.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -13,10 +14,13 @@ enum {
     MAX_PATH = 256,
 };
 
-// Path of the value that the walk is at.
+// Path of the value that the walk is at; where the scene lies, for files that it names, and what went wrong with them.
 typedef struct Path {
     char text[MAX_PATH];
     size_t length;
+    const char *scene_path;
+    char *message;
+    size_t message_size;
 } Path;
 
 static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value);
@@ -91,6 +95,26 @@ static WeirStatus walk_list(WeirScene *scene, Path *path, const json_t *list)
     return WEIR_OK;
 }
 
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), wanted = strlen(end);
+    return length >= wanted && strcmp(text + length - wanted, end) == 0;
+}
+
+// A text, or the file that it names: "walls[0].mesh.file".
+static WeirStatus set_text(WeirScene *scene, Path *path, const char *text)
+{
+    bool is_table = ends_with(path->text, ".motion.file"), is_mesh = ends_with(path->text, ".mesh.file");
+    if (!is_table && !is_mesh) return weir_scene_set_string(scene, path->text, text);
+    char key[MAX_PATH];
+    size_t length = path->length - strlen("file");
+    memcpy(key, path->text, length);
+    key[length] = '\0';
+    return is_table
+               ? weir_file_read_table(scene, key, path->scene_path, text, path->message, path->message_size)
+               : weir_file_read_mesh(scene, key, path->scene_path, text, path->message, path->message_size);
+}
+
 static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value)
 {
     switch (json_typeof(value)) {
@@ -102,7 +126,7 @@ static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value)
     case JSON_INTEGER:
         return weir_scene_set_number(scene, path->text, json_number_value(value));
     case JSON_STRING:
-        return weir_scene_set_string(scene, path->text, json_string_value(value));
+        return set_text(scene, path, json_string_value(value));
     case JSON_TRUE:
         return weir_scene_set_boolean(scene, path->text, true);
     case JSON_FALSE:
@@ -115,18 +139,18 @@ static WeirStatus walk(WeirScene *scene, Path *path, const json_t *value)
 
 // The dimension says how long vectors are, and the method which dimensions there are: both come first, wherever
 // the file has them.
-static WeirStatus walk_document(WeirScene *scene, const json_t *document)
+static WeirStatus walk_document(WeirScene *scene, Path *path, const json_t *document)
 {
     static const char *const first[] = {"method", "dimension"};
     for (int k = 0; k < 2; ++k) {
         const json_t *value = json_object_get(document, first[k]);
         if (!value) continue;
-        Path path = {.length = 0};
-        path_add_key(&path, first[k]);
-        WeirStatus status = walk(scene, &path, value);
+        path_add_key(path, first[k]);
+        WeirStatus status = walk(scene, path, value);
         if (status) return status;
+        path_cut(path, 0);
     }
-    return walk(scene, &(Path){.length = 0}, document);
+    return walk(scene, path, document);
 }
 
 // Reads the whole file, from malloc; NULL with the reason in `message`.
@@ -190,10 +214,12 @@ WeirStatus weir_json_parse_scene(const char *text, size_t size, const char *path
         snprintf(message, message_size, "%s: memory ran out", path);
         return WEIR_ERROR_MEMORY;
     }
-    WeirStatus status = walk_document(loaded, document);
+    char trouble[512] = "";
+    Path position = {.scene_path = path, .message = trouble, .message_size = sizeof trouble};
+    WeirStatus status = walk_document(loaded, &position, document);
     json_decref(document);
     if (status) {
-        snprintf(message, message_size, "%s: %s", path, weir_scene_error(loaded));
+        snprintf(message, message_size, "%s: %s", path, *trouble ? trouble : weir_scene_error(loaded));
         weir_scene_destroy(loaded);
         return status;
     }
