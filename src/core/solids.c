@@ -80,7 +80,7 @@ void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, dou
 {
     double first = rows[0].time, last = rows[count - 1].time;
     if (repeats && last > first && time > last) time = first + fmod(time - first, last - first);
-    bool before = time <= first, after = time >= last;
+    bool before = time<first, after = time> last;
     if (before || after || count == 1) {
         *now = rows[before ? 0 : count - 1];
         // Outside its table a motion stands still.

@@ -136,7 +136,7 @@ static double slots_of(const WeirBuild *build, const WeirEmitterPiece *piece, co
     if (piece->capacity > 0) return piece->capacity;
     double open = piece->stop > 0.0 ? piece->stop - piece->start : plausible_time;
     double layers = ceil(emitter->speed * open / build->spacing) + 1.0;
-    double inside = ceil((double)build->parameters.support_radius / build->spacing) + 1.0;
+    double inside = build->layers + 1.0; // on their way through the nozzle
     return fmin(layers * emitter->point_count, free_sites(build) + inside * emitter->point_count);
 }
 

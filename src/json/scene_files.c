@@ -69,7 +69,8 @@ static int read_line(char *line, Table *table)
 }
 
 // All lines; the first may name the columns.
-static WeirStatus read_table(FILE *file, const char *path, int columns, Table *table, char *message, size_t size)
+static WeirStatus read_table(FILE *file, const char *path, int columns, Table *table, char *message,
+                             size_t size)
 {
     char line[1024];
     for (int number = 1; fgets(line, sizeof line, file); ++number) {
@@ -95,7 +96,8 @@ WeirStatus weir_file_read_table(WeirScene *scene, const char *key, const char *s
     char *path = path_of(scene_path, name);
     FILE *file = path ? fopen(path, "r") : NULL;
     if (!file) {
-        snprintf(message, message_size, "%sfile: %s: cannot be read: %s", key, path ? path : name, strerror(errno));
+        snprintf(message, message_size, "%sfile: %s: cannot be read: %s", key, path ? path : name,
+                 strerror(errno));
         free(path);
         return WEIR_ERROR_INPUT;
     }
@@ -161,16 +163,16 @@ WeirStatus weir_file_read_mesh(WeirScene *scene, const char *key, const char *sc
     if (found && found->mNumMeshes > 0)
         status = set_mesh(scene, key, found, message, message_size);
     else
-        snprintf(message, message_size, "%sfile: %s: cannot be read as a mesh: %.200s", key, path ? path : file,
-                 found ? "it holds none" : aiGetErrorString());
+        snprintf(message, message_size, "%sfile: %s: cannot be read as a mesh: %.200s", key,
+                 path ? path : file, found ? "it holds none" : aiGetErrorString());
     if (found) aiReleaseImport(found);
     free(path);
     return status;
 #else
     (void)scene;
     (void)scene_path;
-    snprintf(message, message_size, "%sfile: %s: this program was built without mesh files (WEIR_MESHES)", key,
-             file);
+    snprintf(message, message_size, "%sfile: %s: this program was built without mesh files (WEIR_MESHES)",
+             key, file);
     return WEIR_ERROR_INPUT;
 #endif
 }

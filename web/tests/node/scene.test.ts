@@ -72,6 +72,100 @@ for (const [name, { steps, hash }] of Object.entries(golden)) {
   });
 }
 
+// ---- wcsph: everything that a scene can hold becomes the same particles natively and here ----
+
+const tank2 = { min: [0, 0], max: [2, 1] };
+const cubeMesh = {
+  vertices: [0, 1].flatMap((z) => [0, 1].flatMap((y) => [0, 1].map((x) => [x, y, z]))),
+  triangles: [
+    [0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+    [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
+  ],
+};
+const worlds: Record<string, Record<string, unknown>> = {
+  'walls, bodies, emitter, drain': {
+    // The dimension's place in the file does not matter.
+    fluid: [{ box: { min: [0, 0], max: [2, 0.4] } }, { polygon: [[0.2, 0.6], [0.4, 0.9], [0.6, 0.6]], velocity: [1, 0] }],
+    domain: { ...tank2, open: '+y', free_slip: true },
+    parameters: { particle_spacing: 0.04, equation_of_state: 'tait' },
+    walls: [
+      { name: 'wedge', polygon: [[1.2, 0], [1.5, 0.3], [1.7, 0]], no_slip: false },
+      { ball: { center: [0.5, 0.2], radius: 0.11 }, motion: { angle: 0.5, period: 0.9, amplitude: [0.01, 0.02] } },
+      { box: { min: [0, 0], max: [0.1, 0.8] }, motion: { rows: [[0, 0, 0, 0], [0.5, 0.05, 0, 0], [1, 0, 0, 0]], repeats: true } },
+    ],
+    bodies: [{ name: 'cork', ball: { center: [1, 0.5], radius: 0.1 }, density: 300, fixed: 'x', angular_velocity: 2 }],
+    emitters: [{ center: [1.7, 0.8], direction: [-1, -1], size: 0.1, speed: 1, capacity: 50 }],
+    drains: [{ min: [0.2, 0], max: [0.4, 0.1] }],
+    probes: [{ name: 'push', kind: 'force', target: 'wedge' }],
+    method: 'wcsph',
+    dimension: 2,
+  },
+  'a tank around the fluid': {
+    method: 'wcsph',
+    domain: { min: [-1, -1], max: [1, 1] },
+    parameters: { particle_spacing: 0.05 },
+    fluid: [{ box: { min: [-1, -1], max: [1, 0] } }],
+    walls: [{ ball: { center: [0, 0], radius: 0.8 }, inside: true }],
+  },
+  'flows': {
+    method: 'wcsph',
+    domain: { min: [0, 0], max: [1, 1], periodic: 'xy' },
+    parameters: { particle_spacing: 0.05, gravity: [0, 0], viscosity: 10 },
+    fluid: [{ box: { min: [0, 0], max: [1, 1] }, flow: 'taylor_green', flow_rate: 1 }],
+  },
+  'a stretched drop': {
+    method: 'wcsph',
+    domain: { min: [-2, -2], max: [2, 2], open: '-x +x -y +y' },
+    parameters: { particle_spacing: 0.1, gravity: [0, 0] },
+    fluid: [{ ball: { center: [0, 0], radius: 1 }, flow: 'stretch', flow_rate: 3 }],
+  },
+  'a square that turns': {
+    method: 'wcsph',
+    domain: { min: [-2, -2], max: [2, 2], open: '-x +x -y +y' },
+    parameters: { particle_spacing: 0.1, gravity: [0, 0] },
+    fluid: [{ box: { min: [-1, -1], max: [1, 1] }, flow: 'rotating_square', flow_rate: 3 }],
+  },
+  'a standing wave': {
+    method: 'wcsph',
+    domain: { min: [0, 0], max: [2, 1.5], open: '+y' },
+    parameters: { particle_spacing: 0.05 },
+    fluid: [{ box: { min: [0, 0], max: [2, 1] }, flow: 'standing_wave', flow_rate: 0.05 }],
+  },
+  'three dimensions': {
+    domain: { min: [-1, -1, -1], max: [1, 1, 1] },
+    parameters: { particle_spacing: 0.1 },
+    fluid: [{ box: { min: [-1, -1, -1], max: [1, -0.4, 1] } }],
+    walls: [
+      { mesh: { ...cubeMesh, scale: 0.53, translate: [-0.3, -0.8, -0.3] } },
+      { cylinder: { from: [-0.7, -0.5, -0.6], to: [-0.6, 0.2, 0.7], radius: 0.2 }, motion: { angular_velocity: [0, 1, 0.5] } },
+    ],
+    bodies: [{ ball: { center: [0.7, 0.2, 0.5], radius: 0.25 }, density: 700, angular_velocity: [1, 0, 2] }],
+    emitters: [{ center: [0.7, 0.8, -0.6], direction: [0.1, -1, 0.2], size: 0.3, speed: 1, capacity: 60 }],
+    dimension: 3,
+    method: 'wcsph',
+  },
+};
+
+for (const [name, scene] of Object.entries(worlds)) {
+  test(`wcsph, the same bits as native: ${name}`, () => {
+    for (const steps of [0, 3]) {
+      const file = join(folder, 'world.json');
+      writeFileSync(file, JSON.stringify(scene));
+      const run = spawnSync(native, ['run', file, '--steps', String(steps), '--backend', 'cpu', '--quiet', '--json'], { encoding: 'utf8' });
+      assert.equal(run.status, 0, run.stderr);
+      const loaded = weir.loadScene(scene);
+      loaded.check();
+      const sim = weir.createSim(loaded);
+      sim.step(steps);
+      assert.equal(sim.poll(), Status.ok, sim.error);
+      const said = JSON.parse(run.stdout) as { state_hash: string; particles: number };
+      assert.equal(said.state_hash.replace(/^0x/, ''), sim.diagnose(false)?.stateHash);
+      sim.destroy();
+      loaded.destroy();
+    }
+  });
+}
+
 // ---- Messages ----
 
 const box = { box: { min: [-0.5, -0.5], max: [0, 0] } };
@@ -117,6 +211,26 @@ const bad: Record<string, unknown> = {
   'outside the domain': { fluid: [{ box: { min: [0, 0], max: [3, 1] } }] },
   'overlap': { fluid: [box, box] },
   'flat domain': { domain: { min: [0, 0], max: [0, 1] }, fluid: [box] },
+  'walls with mueller': { fluid: [box], walls: [{ box: box.box }] },
+  'booleans for text': { fluid: [{ ...box, flow: true }] },
+  'text for a boolean': { method: 'wcsph', fluid: [{ ...box, hydrostatic: 'yes' }] },
+  'number for a boolean': { method: 'wcsph', domain: { free_slip: 1 } },
+  'unknown flow': { method: 'wcsph', fluid: [{ ...box, flow: 'whirl' }] },
+  'dimension without method': { dimension: 3, fluid: [box] },
+  'vectors of the other dimension': { fluid: [box], method: 'wcsph', dimension: 3 },
+  'a polygon of one number': { method: 'wcsph', fluid: [{ polygon: [[1, 2], [3]] }] },
+  'a polygon of numbers': { method: 'wcsph', fluid: [{ polygon: [1, 2, 3] }] },
+  'an empty polygon': { method: 'wcsph', fluid: [{ polygon: [] }] },
+  'a table out of order': {
+    method: 'wcsph', parameters: { particle_spacing: 0.05 }, fluid: [box],
+    walls: [{ box: { min: [0.5, 0.5], max: [1, 1] }, motion: { rows: [[0, 0, 0, 0], [2, 1, 0, 0], [1, 0, 0, 0]] } }],
+  },
+  'a mesh with a hole': {
+    method: 'wcsph', dimension: 3, parameters: { particle_spacing: 0.1 },
+    fluid: [{ box: { min: [-1, -1, -1], max: [1, 0, 1] } }],
+    walls: [{ mesh: { vertices: cubeMesh.vertices, triangles: cubeMesh.triangles.slice(1) } }],
+  },
+  'an unknown wall': { method: 'wcsph', parameters: { particle_spacing: 0.05 }, fluid: [box], probes: [{ kind: 'force', target: 'lid' }] },
   'far too many particles': { parameters: { particle_spacing: 1e-5, support_radius: 3e-5 }, fluid: [box] },
 };
 
@@ -148,6 +262,12 @@ function wasmMessage(scene: unknown): string {
 
 for (const [name, scene] of Object.entries(bad))
   test(`refused as natively: ${name}`, () => assert.equal(wasmMessage(scene), nativeMessage(scene)));
+
+test('files are for the command line', () => {
+  const motion = { file: 'piston.csv' }, mesh = { file: 'hull.stl' };
+  assert.match(wasmMessage({ method: 'wcsph', walls: [{ motion }] }), /walls\[0\]\.motion\.file.*piston\.csv.*command line only.*rows/);
+  assert.match(wasmMessage({ method: 'wcsph', dimension: 3, walls: [{ mesh }] }), /hull\.stl.*command line only.*vertices and triangles/);
+});
 
 test('what only JavaScript can hold is refused too', () => {
   for (const value of [NaN, Infinity, -Infinity])
