@@ -169,6 +169,14 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 
 // ---- forces ----
 
+// A last barrier keeps fast fluid out of walls: from three quarters of a spacing on, where pressure lets nothing come,
+// solid particles repel the fluid by barrier_strength c0^2 / spacing (r0 / r - 1), damped for what approaches (n along x_ij,
+// pointing away from the solid), so that a splash at half the speed of sound leaks nothing.
+// Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
+// good, it would pull at whatever it meets.
+static const float spray_limit = 0.5f;
+static const float barrier_range = 0.75f, barrier_strength = 4.0f, barrier_damping = 0.125f;
+
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
     Vector pressure;   // sum p_j / rho_j F^ x
@@ -176,6 +184,7 @@ typedef struct ForceSums {
     Vector clustering; // sum 1 / rho_j (W / W(spacing))^4 F^ x
     Vector artificial; // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, fluid only
     Vector laminar;    // sum 1 / rho_j F^ v
+    Vector barrier;    // sum max(0, r0 / r - 1) x / r between fluid and solid
     WeirLanes surface; // sum 1 / rho_j F^ r^2
 } ForceSums;
 
@@ -186,6 +195,8 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
     const WeirConstants *constants = data->constants;
     float inverse_support = constants->inverse_support, inverse_spacing = 1.0f / constants->spacing_value;
     float h = constants->smoothing_length * constants->inverse_quantum, soft = 0.01f * h * h;
+    float inverse_sound = 1.0f / constants->sound_speed;
+    float barrier = barrier_range * data->parameters->particle_spacing * constants->inverse_quantum;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     WeirLanes stick_i = weir_lanes_load(data->stick + begin),
               fluid_i = weir_lanes_load(data->is_fluid + begin);
@@ -208,6 +219,12 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
             WeirLanes approach = dot(v, x, variant) / (r2 + soft) * slope * (fluid_i * data->is_fluid[j]);
             add_scaled(&sums.artificial, approach, x, variant);
             add_scaled(&sums.laminar, slope * (stick_i * data->stick[j]), v, variant);
+            if (solids || data->is_fluid[j] == 0.0f) {
+                WeirLanes r = weir_lanes_max(weir_lanes_sqrt(r2), weir_lanes_fill(barrier / 3.0f));
+                WeirLanes push = weir_lanes_max(barrier / r - 1.0f, weir_lanes_fill(0.0f));
+                WeirLanes approach = weir_lanes_max(dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
+                add_scaled(&sums.barrier, push * (approach + 1.0f) / r, x, variant);
+            }
             if (solids) continue;
             WeirLanes near = lanes_power4(kernel_shape(s, variant) * inverse_spacing);
             add_scaled(&sums.clustering, slope * near, x, variant);
@@ -229,10 +246,11 @@ static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums
     float laminar = common * 2.0f * data->parameters->viscosity,
           artificial = common * constants->artificial_factor;
     const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x;
-    const WeirLanes *a = &sums->artificial.x, *l = &sums->laminar.x;
+    const WeirLanes *a = &sums->artificial.x, *l = &sums->laminar.x, *b = &sums->barrier.x;
+    float barrier = barrier_strength * constants->sound_speed * constants->sound_speed / data->parameters->particle_spacing;
     for (int axis = 0; axis < 3; ++axis) {
         data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
-                                      artificial * a[axis][lane] + laminar * l[axis][lane];
+                                      artificial * a[axis][lane] + laminar * l[axis][lane] + barrier * b[axis][lane];
     }
 }
 
@@ -313,6 +331,10 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
             finish_acceleration(data, &sums, lane, i, tension && inside);
             add_body_forces(data, i);
             finish_shift(data, &sums, lane, i, inside);
+            bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;
+            float lack = data->parameters->rest_density - data->density[i];
+            if (spray && lack > 0.0f)
+                data->shift_rate[i] = lack * data->inverse_density[i] * constants->sound_speed / constants->smoothing_length;
         }
     }
     if (any_set(data->needs_force, begin, group->lanes)) {
