@@ -108,7 +108,8 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
-    constants->speed_limit = 2.0f * parameters->sound_speed; // spray may pass it for a moment, a sound flow not by far
+    constants->speed_limit =
+        2.0f * parameters->sound_speed; // spray may pass it for a moment, a sound flow not by far
     // Artificial viscosity acts as nu = alpha h c0 / (2 (d + 2)) (Monaghan 2005): it makes up only for what the fluid's
     // own viscosity lacks.
     double length = weir_smoothing_length(kernel, support) * parameters->sound_speed;

@@ -174,7 +174,9 @@ static void walls_hold_fast_fluid(const WeirBackend *backend)
     for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
         WeirScene *scene = tank(dimension, 0.5, 0.5, dimension == 3 ? 0.04 : 0.02);
         const double v[3] = {-4, -4, dimension == 3 ? -2 : 0};
-        CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0.1, 0.1, 0.1}, (double[]){0.34, 0.34, 0.34}, v), WEIR_OK);
+        CHECK_SCENE(scene,
+                    weir_scene_add_box(scene, (double[]){0.1, 0.1, 0.1}, (double[]){0.34, 0.34, 0.34}, v),
+                    WEIR_OK);
         CHECK_SCENE(scene, weir_scene_set_string(scene, "parameters.stepping", "adaptive"), WEIR_OK);
         weir_test_gravity(scene, 0, 0);
         weir_test_set(scene, "sound_speed", 12);

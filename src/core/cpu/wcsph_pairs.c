@@ -222,7 +222,8 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
             if (solids || data->is_fluid[j] == 0.0f) {
                 WeirLanes r = weir_lanes_max(weir_lanes_sqrt(r2), weir_lanes_fill(barrier / 3.0f));
                 WeirLanes push = weir_lanes_max(barrier / r - 1.0f, weir_lanes_fill(0.0f));
-                WeirLanes approach = weir_lanes_max(dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
+                WeirLanes approach = weir_lanes_max(
+                    dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
                 add_scaled(&sums.barrier, push * (approach + 1.0f) / r, x, variant);
             }
             if (solids) continue;
@@ -247,10 +248,12 @@ static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums
           artificial = common * constants->artificial_factor;
     const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x;
     const WeirLanes *a = &sums->artificial.x, *l = &sums->laminar.x, *b = &sums->barrier.x;
-    float barrier = barrier_strength * constants->sound_speed * constants->sound_speed / data->parameters->particle_spacing;
+    float barrier = barrier_strength * constants->sound_speed * constants->sound_speed /
+                    data->parameters->particle_spacing;
     for (int axis = 0; axis < 3; ++axis) {
         data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
-                                      artificial * a[axis][lane] + laminar * l[axis][lane] + barrier * b[axis][lane];
+                                      artificial * a[axis][lane] + laminar * l[axis][lane] +
+                                      barrier * b[axis][lane];
     }
 }
 
@@ -334,7 +337,8 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
             bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;
             float lack = data->parameters->rest_density - data->density[i];
             if (spray && lack > 0.0f)
-                data->shift_rate[i] = lack * data->inverse_density[i] * constants->sound_speed / constants->smoothing_length;
+                data->shift_rate[i] =
+                    lack * data->inverse_density[i] * constants->sound_speed / constants->smoothing_length;
         }
     }
     if (any_set(data->needs_force, begin, group->lanes)) {
