@@ -164,6 +164,29 @@ static float square(const float *const v[3], uint32_t i)
     return v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i];
 }
 
+// The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
+static void seal(const WeirWcsph *solver, WeirWcsphParticles *particles, uint32_t i)
+{
+    const WeirConstants *constants = &solver->constants;
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+        float depth = solver->parameters.particle_spacing;
+        float low = (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
+        float high = (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
+        int32_t *x = &particles->x[axis][i];
+        float *v = &particles->velocity[axis][i];
+        if (periods[axis] > 0) continue;
+        if ((float)*x < low && !(constants->open_sides >> (2 * axis) & 1)) {
+            *x = (int32_t)low;
+            *v = fmaxf(*v, 0.0f);
+        }
+        if ((float)*x > high && !(constants->open_sides >> (2 * axis + 1) & 1)) {
+            *x = (int32_t)high;
+            *v = fminf(*v, 0.0f);
+        }
+    }
+}
+
 static void finish_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
@@ -186,6 +209,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
         }
         to->density[i] += half * data->rate[i];
         move(&solver->constants, to, i, way);
+        if (free) seal(solver, to, i);
         ++maxima.fluid;
         maxima.speed2 = fmaxf(maxima.speed2, speed2);
         maxima.density_error = fmaxf(maxima.density_error, fabsf(to->density[i] / rest_density - 1.0f));
