@@ -171,8 +171,10 @@ static void seal(const WeirWcsph *solver, WeirWcsphParticles *particles, uint32_
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
         float depth = solver->parameters.particle_spacing;
-        float low = (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
-        float high = (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
+        float low =
+            (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
+        float high =
+            (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
         int32_t *x = &particles->x[axis][i];
         float *v = &particles->velocity[axis][i];
         if (periods[axis] > 0) continue;
