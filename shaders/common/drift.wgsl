@@ -9,15 +9,24 @@ struct Drifted {
     fate: u32,
 }
 
+fn is_periodic(axis: u32) -> bool {
+    return (axis == 0u && PERIODIC_X) || (axis == 1u && PERIODIC_Y) || (axis == 2u && PERIODIC_Z);
+}
+
+// Is the side (0 low, 1 high) of an axis one of the domain's own walls?
+fn has_wall(axis: u32, side: u32) -> bool {
+    return !is_periodic(axis) && ((constants.open_sides >> (2u * axis + side)) & 1u) == 0u;
+}
+
 // Fluid beyond an open side, or beyond a wall by more than a support radius, is gone.
 fn is_outside(at: Vector) -> bool {
     let reach = constants.search_radius;
     for (var axis = 0u; axis < DIMENSION; axis++) {
-        if (axis == 0u && PERIODIC_X) || (axis == 1u && PERIODIC_Y) || (axis == 2u && PERIODIC_Z) {
+        if is_periodic(axis) {
             continue;
         }
-        let low = select(reach, 0.0, ((constants.open_sides >> (2u * axis)) & 1u) != 0u);
-        let high = select(reach, 0.0, ((constants.open_sides >> (2u * axis + 1u)) & 1u) != 0u);
+        let low = select(0.0, reach, has_wall(axis, 0u));
+        let high = select(0.0, reach, has_wall(axis, 1u));
         if at[axis] < constants.domain_min[axis] - low || at[axis] > constants.domain_max[axis] + high {
             return true;
         }

@@ -59,14 +59,29 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
     atomicStore(&control.running, 0u);
 }
 
+// The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
+fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
+    let origin = vector_of(constants.origin);
+    let depth = Vector(parameters.particle_spacing);
+    let low = (vector_of(constants.domain_min) - depth - origin) * constants.inverse_quantum;
+    let high = (vector_of(constants.domain_max) + depth - origin) * constants.inverse_quantum;
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        if has_wall(axis, 0u) && f32((*place)[axis]) < low[axis] {
+            (*place)[axis] = i32(low[axis]);
+            (*velocity)[axis] = max((*velocity)[axis], 0.0);
+        }
+        if has_wall(axis, 1u) && f32((*place)[axis]) > high[axis] {
+            (*place)[axis] = i32(high[axis]);
+            (*velocity)[axis] = min((*velocity)[axis], 0.0);
+        }
+    }
+}
+
 fn finish_fluid(i: u32, own: vec4i) {
     var own_motion = kicked[i];
-    var shift = vec4f(0.0);
-    if SHIFTING {
-        shift = kicked[constants.particle_count + i];
-    }
+    let shift = kicked[constants.particle_count + i];
     let rate = density_rate(own, own_motion, shift.w);
-    let velocity = vector_of(own_motion);
+    var velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w += last_half * rate;
@@ -78,7 +93,12 @@ fn finish_fluid(i: u32, own: vec4i) {
     if SHIFTING && u32(own.w) == GROUP_FLUID {
         way += control.last_dt * vector_of(shift);
     }
-    let finished = vec4i(wide_place(moved(place_of(own), way)), own.w);
+    var place = moved(place_of(own), way);
+    if u32(own.w) == GROUP_FLUID {
+        seal(&place, &velocity);
+        own_motion = vec4f(wide(velocity), own_motion.w);
+    }
+    let finished = vec4i(wide_place(place), own.w);
     let half = control.drift_half;
     if half == 0.0 {
         kicked[constants.particle_count + i].w = rate;
@@ -117,5 +137,9 @@ fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         place = vec4i(wide_place(wrapped(place_of(own) + way)), own.w);
     }
     coordinate[i] = place;
-    motion[i] = kicked[i];
+    var own_motion = kicked[i];
+    if HAS_SOLIDS && is_solid(group) {
+        own_motion += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);
+    }
+    motion[i] = own_motion;
 }

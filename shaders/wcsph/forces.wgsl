@@ -17,14 +17,23 @@
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
 struct Sums {
-    pressure: Vector,   // of p_j, and of the artificial viscosity
+    pressure: Vector,   // of p_j
     gradient: Vector,   // of 1
-    laminar: Vector,
+    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid
+    laminar: Vector,    // of v, between fluid
+    friction: Vector,   // of v, between fluid and no-slip solids
+    barrier: Vector,    // between fluid and solid
     clustering: Vector, // of (W / W(spacing))^4
     surface: f32,
 }
 
-// 1 if viscosity acts on it.
+// A last barrier keeps fast fluid out of walls, and spray forgets tension: docs/wcsph.md.
+const BARRIER_RANGE = 0.75; // spacings
+const BARRIER_STRENGTH = 4.0;
+const BARRIER_DAMPING = 0.125;
+const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk
+
+// 1 if friction acts on it.
 fn sticks(group: u32) -> f32 {
     if SLIP_SOLIDS && is_solid(group) {
         return f32(solid_table[group - GROUP_SOLID].no_slip);
@@ -36,7 +45,8 @@ fn sticks(group: u32) -> f32 {
 fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     let support = f32(1u << constants.coordinate_bits);
     let h = constants.smoothing_length * constants.inverse_quantum;
-    let soft = 0.01 * h * h;
+    let soft = 1e-4 * h * h;
+    let barrier_range = BARRIER_RANGE * parameters.particle_spacing * constants.inverse_quantum;
     let inverse_spacing_value = 1.0 / constants.spacing_value;
     let velocity = vector_of(own_motion);
     let stick = sticks(u32(own.w));
@@ -60,16 +70,24 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                 if TAIT && !fluid {
                     pressure = linear_pressure(neighbor.w);
                 }
-                pressure *= -constants.quantum;
                 let relative = velocity - vector_of(neighbor);
-                if ARTIFICIAL {
-                    let approach = constants.artificial_factor * dot(relative, offset) / (r_squared + soft);
-                    pressure += select(0.0, approach, fluid && !solid);
+                if VISCOUS {
+                    let approach = dot(relative, offset) / (r_squared + soft);
+                    sums.viscous += select(0.0, slope * approach, fluid && !solid) * offset;
+                }
+                if LAMINAR {
+                    sums.laminar += select(0.0, slope, fluid && !solid) * relative;
                 }
                 sums.pressure += (slope * pressure) * offset;
                 sums.gradient += slope * offset;
-                if LAMINAR {
-                    sums.laminar += (slope * stick * sticks(group)) * relative;
+                if HAS_SOLIDS && fluid == solid {
+                    if LAMINAR {
+                        sums.friction += (slope * stick * sticks(group)) * relative;
+                    }
+                    let r = max(sqrt(r_squared), barrier_range / 3.0);
+                    let push = max(barrier_range / r - 1.0, 0.0);
+                    let approach = BARRIER_DAMPING / constants.sound_speed * dot(relative, offset) / r;
+                    sums.barrier += (push * (1.0 + max(-approach, 0.0)) / r) * offset;
                 }
                 if SHIFTING {
                     let near = power4(kernel_shape(s) * inverse_spacing_value);
@@ -82,14 +100,18 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     return sums;
 }
 
-// By pressure and viscosity. `own_pressure` as it enters the sum.
-fn acceleration_of(sums: Sums, density: f32, own_pressure: f32) -> Vector {
+// By pressure and viscosity. `own_pressure` as it enters the sum; `inside`: of fluid whose support is full.
+fn acceleration_of(sums: Sums, density: f32, own_pressure: f32, inside: bool) -> Vector {
     let scale = constants.particle_mass * constants.gradient_factor / density;
-    var sum = sums.pressure - (constants.quantum * own_pressure) * sums.gradient;
-    if LAMINAR {
-        sum += (2.0 * parameters.viscosity) * sums.laminar;
+    var sum = -constants.quantum * (sums.pressure + own_pressure * sums.gradient);
+    if VISCOUS {
+        sum += select(constants.viscosity_factor, constants.artificial_factor, inside) * sums.viscous;
     }
-    return scale * sum;
+    if LAMINAR {
+        sum += (2.0 * parameters.viscosity) * (sums.friction + select(0.0, 1.0, inside) * sums.laminar);
+    }
+    let barrier = BARRIER_STRENGTH * constants.sound_speed * constants.sound_speed / parameters.particle_spacing;
+    return scale * sum + barrier * sums.barrier;
 }
 
 // WeirToolKind
@@ -167,7 +189,7 @@ fn contact_force(own: vec4i) -> Vector {
 
 fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f) -> Vector {
     let sums = sum_forces(own, own_motion, true);
-    let acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w));
+    let acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w), false);
     let entry = 2u * (constants.particle_count + sorted_id[i] - constants.first_solid);
     kicked[entry] = vec4f(constants.particle_mass * wide(acceleration), 0.0);
     if FREE_SOLIDS && solid_table[u32(own.w) - GROUP_SOLID].kind == SOLID_FREE {
@@ -209,7 +231,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     let pressure = pressure_of(own_motion.w);
     let acts = select(pressure, -pressure, TENSION_CONTROL && inside && pressure < 0.0);
     let velocity = vector_of(own_motion);
-    let acceleration = acceleration_of(sums, own_motion.w, acts)
+    let acceleration = acceleration_of(sums, own_motion.w, acts, inside)
         + body_forces(position_of(place_of(own)), velocity);
     let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity
     if FORCES_READ {
@@ -223,13 +245,15 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     }
     let new_velocity = velocity + select(0.0, control.dt, free) * acceleration;
     kicked[i] = vec4f(wide(new_velocity), own_motion.w);
-    if SHIFTING {
-        var shift = vec4f(0.0);
-        if inside {
-            shift = shift_of(sums);
-        }
-        kicked[constants.particle_count + i] = shift;
+    var shift = vec4f(0.0);
+    if SHIFTING && inside {
+        shift = shift_of(sums);
     }
+    let lack = parameters.rest_density - own_motion.w;
+    if full * sums.surface < SPRAY_LIMIT * f32(DIMENSION) && lack > 0.0 {
+        shift.w = lack / own_motion.w * constants.sound_speed / constants.smoothing_length;
+    }
+    kicked[constants.particle_count + i] = shift;
     take_speed(dot(new_velocity, new_velocity));
     if free {
         take_acceleration(dot(acceleration, acceleration));
@@ -260,8 +284,8 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
         }
         return;
     }
-    // Of a moving solid pass kick knows better.
-    kicked[i] = vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, own_motion.w);
+    // A surface that slides along itself displaces no fluid. Of a moving solid pass kick knows better.
+    kicked[i] = vec4f(vec3f(0.0), own_motion.w);
     if wants_force(group) {
         let acceleration = force_on_solid(i, own, own_motion);
         if FORCES_READ {

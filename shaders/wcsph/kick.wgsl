@@ -25,8 +25,7 @@ fn kick(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgr
     let n = group - GROUP_SOLID;
     let start = local_place[sorted_id[i] - constants.first_solid].xyz;
     let arm = rotate(solid_state[NEW + n].orientation, start);
-    let velocity = solid_state[NEW + n].velocity.xyz + cross(solid_state[NEW + n].angular_velocity.xyz, arm)
-        + solid_table[n].surface_velocity.xyz;
+    let velocity = solid_state[NEW + n].velocity.xyz + cross(solid_state[NEW + n].angular_velocity.xyz, arm);
     kicked[i] = vec4f(velocity, kicked[i].w);
     let way = way_to(solid_state[NOW + n], start, place_of(own)); // less than a support: exact in a float
     kicked[constants.particle_count + i] = vec4f(wide(Vector(way)), 0.0);

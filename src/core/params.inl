@@ -25,7 +25,7 @@ WEIR_NUMBER(sound_speed, "m/s", 0.0, 0.0, 1e5, "wcsph", 0,
             "Speed of sound c0. 0: ten times the largest speed that the scene can reach.")
 WEIR_NUMBER(expected_speed, "m/s", 0.0, 0.0, 1e4, "wcsph", 0,
             "Largest speed expected, for the speed of sound. 0: estimated from the scene.")
-WEIR_NUMBER(artificial_viscosity, "1", 0.02, 0.0, 10.0, "wcsph", 1,
+WEIR_NUMBER(artificial_viscosity, "1", 0.01, 0.0, 10.0, "wcsph", 1,
             "Strength alpha of Monaghan's artificial viscosity between fluid particles.")
 WEIR_NUMBER(density_diffusion, "1", 0.1, 0.0, 1.0, "wcsph", 1,
             "Strength delta of the density diffusion of Fourtakas et al. 2019.")

@@ -140,7 +140,7 @@ static void scatter(WeirWcsph *solver)
     weir_cells_place(&solver->cells, solver->pool, solver->constants.particle_count);
     weir_pool_run(solver->pool, solver->constants.cell_count + 1, WEIR_WCSPH_CELL_CHUNK, gather_chunk,
                   solver);
-    weir_wcsph_solid_velocities(solver, solver->sorted.velocity);
+    weir_wcsph_solid_velocities(solver, true, solver->sorted.velocity);
 }
 
 // ---- Pair passes ----

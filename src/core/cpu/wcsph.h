@@ -124,8 +124,8 @@ void weir_wcsph_time_step(WeirWcsph *solver);
 void weir_wcsph_begin_maxima(WeirWcsph *solver);
 
 // ---- wcsph_solids.c ----
-// Velocity of every solid's particles among the sorted ones, with the surface's own; `new`: into new_velocity.
-void weir_wcsph_solid_velocities(WeirWcsph *solver, float *const velocity[3]);
+// Velocity of every solid's particles among the sorted ones, `surface`: with the surface's own.
+void weir_wcsph_solid_velocities(WeirWcsph *solver, bool surface, float *const velocity[3]);
 void weir_wcsph_walls(WeirWcsph *solver);
 void weir_wcsph_solids(WeirWcsph *solver);
 // Places the particles of moving solids.

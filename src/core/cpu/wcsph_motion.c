@@ -134,7 +134,8 @@ static void kick_chunk(void *context, uint32_t begin, uint32_t end)
 void weir_wcsph_kick(WeirWcsph *solver)
 {
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, kick_chunk, solver);
-    weir_wcsph_solid_velocities(solver, solver->data.new_velocity);
+    // A surface that slides along itself displaces no fluid.
+    weir_wcsph_solid_velocities(solver, false, solver->data.new_velocity);
 }
 
 // ---- finish ----

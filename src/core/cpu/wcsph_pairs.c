@@ -182,8 +182,9 @@ typedef struct ForceSums {
     Vector pressure;   // sum p_j / rho_j F^ x
     Vector gradient;   // sum 1 / rho_j F^ x
     Vector clustering; // sum 1 / rho_j (W / W(spacing))^4 F^ x
-    Vector artificial; // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, fluid only
-    Vector laminar;    // sum 1 / rho_j F^ v
+    Vector viscous;    // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, between fluid
+    Vector laminar;    // sum 1 / rho_j F^ v, between fluid
+    Vector friction;   // the same between fluid and no-slip solids
     Vector barrier;    // sum max(0, r0 / r - 1) x / r between fluid and solid
     WeirLanes surface; // sum 1 / rho_j F^ r^2
 } ForceSums;
@@ -194,7 +195,7 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
 {
     const WeirConstants *constants = data->constants;
     float inverse_support = constants->inverse_support, inverse_spacing = 1.0f / constants->spacing_value;
-    float h = constants->smoothing_length * constants->inverse_quantum, soft = 0.01f * h * h;
+    float h = constants->smoothing_length * constants->inverse_quantum, soft = 1e-4f * h * h;
     float inverse_sound = 1.0f / constants->sound_speed;
     float barrier = barrier_range * data->parameters->particle_spacing * constants->inverse_quantum;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
@@ -217,9 +218,10 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
             add_scaled(&sums.pressure, slope * data->pressure[j], x, variant);
             add_scaled(&sums.gradient, slope, x, variant);
             WeirLanes approach = dot(v, x, variant) / (r2 + soft) * slope * (fluid_i * data->is_fluid[j]);
-            add_scaled(&sums.artificial, approach, x, variant);
-            add_scaled(&sums.laminar, slope * (stick_i * data->stick[j]), v, variant);
+            add_scaled(&sums.viscous, approach, x, variant);
+            add_scaled(&sums.laminar, slope * (fluid_i * data->is_fluid[j]), v, variant);
             if (solids || data->is_fluid[j] == 0.0f) {
+                add_scaled(&sums.friction, slope * (stick_i * data->stick[j]), v, variant);
                 WeirLanes r = weir_lanes_max(weir_lanes_sqrt(r2), weir_lanes_fill(barrier / 3.0f));
                 WeirLanes push = weir_lanes_max(barrier / r - 1.0f, weir_lanes_fill(0.0f));
                 WeirLanes approach = weir_lanes_max(
@@ -235,25 +237,25 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
     return sums;
 }
 
-// Acceleration by pressure and viscosity of lane `lane`; `tension`: a negative own pressure acts by its difference.
+// Acceleration by pressure and viscosity of lane `lane`. `inside`: of fluid whose support is full, for which laminar viscosity
+// has Morris' form; tension control makes its negative pressure act by its difference.
 static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums, uint32_t lane, uint32_t i,
-                                bool tension)
+                                bool inside)
 {
     const WeirConstants *constants = data->constants;
     float own = data->pressure[i];
-    if (tension && own < 0.0f) own = -own;
+    bool tension = data->parameters->tension_control == WEIR_TENSION_CONTROL_ON;
+    if (tension && inside && own < 0.0f) own = -own;
     float common = constants->particle_mass * data->inverse_density[i] * constants->gradient_factor;
     float pressure = -common * constants->quantum;
-    float laminar = common * 2.0f * data->parameters->viscosity,
-          artificial = common * constants->artificial_factor;
-    const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x;
-    const WeirLanes *a = &sums->artificial.x, *l = &sums->laminar.x, *b = &sums->barrier.x;
-    float barrier = barrier_strength * constants->sound_speed * constants->sound_speed /
-                    data->parameters->particle_spacing;
+    float friction = common * 2.0f * data->parameters->viscosity, laminar = inside ? friction : 0.0f;
+    float viscous = common * (inside ? constants->artificial_factor : constants->viscosity_factor);
+    float sound = constants->sound_speed, barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
+    const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x, *v = &sums->viscous.x;
+    const WeirLanes *l = &sums->laminar.x, *f = &sums->friction.x, *b = &sums->barrier.x;
     for (int axis = 0; axis < 3; ++axis) {
-        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
-                                      artificial * a[axis][lane] + laminar * l[axis][lane] +
-                                      barrier * b[axis][lane];
+        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) + viscous * v[axis][lane] +
+                                      laminar * l[axis][lane] + friction * f[axis][lane] + barrier * b[axis][lane];
     }
 }
 
@@ -322,7 +324,6 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
                          Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    bool tension = data->parameters->tension_control == WEIR_TENSION_CONTROL_ON;
     float full =
         -constants->particle_mass * constants->gradient_factor * constants->quantum * constants->quantum;
     if (any_set(data->is_fluid, begin, group->lanes)) {
@@ -331,7 +332,7 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
             uint32_t i = begin + lane;
             if (data->is_fluid[i] == 0.0f) continue;
             bool inside = full * sums.surface[lane] >= 0.95f * (float)constants->dimension;
-            finish_acceleration(data, &sums, lane, i, tension && inside);
+            finish_acceleration(data, &sums, lane, i, inside);
             add_body_forces(data, i);
             finish_shift(data, &sums, lane, i, inside);
             bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;

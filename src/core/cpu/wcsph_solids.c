@@ -23,6 +23,7 @@ static const float *local_of(const WeirWcsph *solver, uint32_t id)
 
 typedef struct Velocities {
     WeirWcsph *solver;
+    float surface; // 1 with the surface's own velocity, 0 without
     float *const *velocity;
 } Velocities;
 
@@ -39,14 +40,14 @@ static void velocities_chunk(void *context, uint32_t begin, uint32_t end)
             weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
                              local_of(solver, solver->sorted.id[i]), place, v);
         for (int axis = 0; axis < 3; ++axis)
-            target->velocity[axis][i] = v[axis] + solid->surface_velocity[axis];
+            target->velocity[axis][i] = v[axis] + target->surface * solid->surface_velocity[axis];
     }
 }
 
-void weir_wcsph_solid_velocities(WeirWcsph *solver, float *const velocity[3])
+void weir_wcsph_solid_velocities(WeirWcsph *solver, bool surface, float *const velocity[3])
 {
     if (solver->world.solid_count == 0) return;
-    Velocities target = {solver, velocity};
+    Velocities target = {solver, surface ? 1.0f : 0.0f, velocity};
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, velocities_chunk, &target);
 }
 
