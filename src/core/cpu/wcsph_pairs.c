@@ -250,12 +250,14 @@ static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums
     float pressure = -common * constants->quantum;
     float friction = common * 2.0f * data->parameters->viscosity, laminar = inside ? friction : 0.0f;
     float viscous = common * (inside ? constants->artificial_factor : constants->viscosity_factor);
-    float sound = constants->sound_speed, barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
+    float sound = constants->sound_speed,
+          barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
     const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x, *v = &sums->viscous.x;
     const WeirLanes *l = &sums->laminar.x, *f = &sums->friction.x, *b = &sums->barrier.x;
     for (int axis = 0; axis < 3; ++axis) {
-        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) + viscous * v[axis][lane] +
-                                      laminar * l[axis][lane] + friction * f[axis][lane] + barrier * b[axis][lane];
+        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
+                                      viscous * v[axis][lane] + laminar * l[axis][lane] +
+                                      friction * f[axis][lane] + barrier * b[axis][lane];
     }
 }
 
