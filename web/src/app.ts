@@ -6,6 +6,7 @@ import { chooseRange, Legend } from './legend.ts';
 import { Notes } from './notes.ts';
 import { Panel, type PanelHost } from './panel.ts';
 import { Plot } from './plot.ts';
+import { ProbePlots } from './probe_plots.ts';
 import { Pointer, type ToolSettings } from './pointer.ts';
 import { fetchScene, parseScene, withParameters, type ParameterValue, type SceneDocument, type SceneEntry } from './scene_document.ts';
 import { SceneStore } from './scene_store.ts';
@@ -37,6 +38,7 @@ export class App implements PanelHost {
   readonly camera = new Camera();
   readonly notes = new Notes(element('notes'));
   readonly plot = new Plot(element('plot') as HTMLCanvasElement);
+  readonly probePlots = new ProbePlots(element('probes'));
   readonly status = new StatusLine(element('footer'));
   readonly store: SceneStore;
   readonly pointer: Pointer;
@@ -86,7 +88,7 @@ export class App implements PanelHost {
       this.camera.pixelRatio = ratio;
       this.#fit();
     });
-    if (innerWidth < 760) this.plot.show(false);
+    if (innerWidth < 760) this.#showPlots(false);
     this.#showScene();
     await this.#chooseEngine();
     requestAnimationFrame(this.#frame);
@@ -410,7 +412,7 @@ export class App implements PanelHost {
       '.': () => this.stepOnce(),
       r: () => this.restart(),
       h: () => this.togglePanel(),
-      p: () => this.plot.show(!this.plot.visible),
+      p: () => this.#showPlots(!this.plot.visible),
       v: () => this.camera.home(),
       '+': () => this.#zoom(1.15),
       '=': () => this.#zoom(1.15),
@@ -440,6 +442,11 @@ export class App implements PanelHost {
     });
   }
 
+  #showPlots(visible: boolean): void {
+    this.plot.show(visible);
+    this.probePlots.show(visible);
+  }
+
   #zoom(factor: number): void {
     if (this.camera.dimension === 3) this.camera.zoom(factor);
   }
@@ -461,6 +468,7 @@ export class App implements PanelHost {
     const { diagnostics } = engine.stats;
     if (diagnostics && diagnostics !== this.#plotted && !this.paused) this.plot.add(now, diagnostics);
     this.#plotted = diagnostics;
+    this.probePlots.update(engine.stats.probes, now);
     this.status.update(now, engine, this.paused);
     if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();
   };

@@ -2,6 +2,7 @@
 import { diagnoseInterval, type Snapshot, type Tool } from './engine.ts';
 import { Pace } from './pace.ts';
 import { floatsPerParticle } from './points.ts';
+import { ProbeReader, type ProbeInfo, type ProbeSamples } from './probes.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { ColorBy, Field, Look, type Clock, type Diagnostics, type Scene, type Sim, type Weir } from './weir.ts';
 
@@ -12,6 +13,7 @@ export type CpuFrame = {
   stepMs: number;
   diagnostics: Diagnostics | null; // a new one now and then
   clock: Clock | null; // wcsph only
+  samples: ProbeSamples[]; // new ones of the probes
 };
 
 // The looks of walls and bodies by number, as PointsFrame has them.
@@ -32,7 +34,8 @@ export class CpuRunner {
   #timeOffset = 0; // a run that goes on from a snapshot keeps its clock
   #stepOffset = 0;
   #diagnosed = 0;
-  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null };
+  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null, samples: [] };
+  #probes: ProbeReader | null = null;
   #looks: number[] = [];
   #wcsph = false;
 
@@ -52,6 +55,10 @@ export class CpuRunner {
   }
   get fluidSlots(): number {
     return this.#sim?.fluidSlots ?? 0;
+  }
+
+  get probes(): ProbeInfo[] {
+    return this.#probes?.infos ?? [];
   }
 
   start(document: SceneDocument, from: Snapshot | null): void {
@@ -74,8 +81,10 @@ export class CpuRunner {
     } finally {
       scene.destroy();
     }
+    this.#probes?.destroy();
     this.#sim?.destroy();
     this.#sim = sim;
+    this.#probes = new ProbeReader(sim);
     this.#pace.reset();
     this.#diagnosed = 0;
   }
@@ -93,6 +102,7 @@ export class CpuRunner {
     const end = performance.now();
     this.#pace.measured(frame.steps, end - begin, budgetMs);
     this.#fill(sim, colorBy, values);
+    frame.samples = this.#probes?.update() ?? [];
     frame.stepCount = sim.stepCount + this.#stepOffset;
     frame.time = sim.time + this.#timeOffset;
     frame.stepMs = this.#pace.stepMs;
@@ -127,6 +137,7 @@ export class CpuRunner {
   }
   reset(): void {
     this.#sim?.reset();
+    this.#probes?.clear();
     this.#timeOffset = this.#stepOffset = 0;
   }
   setParameter(name: string, values: number[]): void {
@@ -134,6 +145,8 @@ export class CpuRunner {
     this.#pace.reset(); // `search` changes what a step costs by orders of magnitude
   }
   destroy(): void {
+    this.#probes?.destroy();
+    this.#probes = null;
     this.#sim?.destroy();
     this.#sim = null;
   }

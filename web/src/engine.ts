@@ -1,6 +1,7 @@
 // The contract between the page and whatever moves and draws the fluid: WebGPU here, C in a worker, C on this thread.
 import type { SceneDocument } from './scene_document.ts';
 import type { PickSource } from './pick.ts';
+import type { ProbeSeries } from './probes.ts';
 import { ToolKind, type Clock, type Diagnostics, type PassTime, type Triple, type View } from './weir.ts';
 
 // The pointer's tool, as weir_sim_set_tool() takes it.
@@ -26,6 +27,7 @@ export type EngineStats = {
   passes: PassTime[]; // empty where the device gives no times
   diagnostics: Diagnostics | null;
   clock: Clock | null; // wcsph only
+  probes: ProbeSeries[]; // of the scene; another list for another run
   memory: number; // bytes; 0: not known
 };
 
@@ -57,7 +59,7 @@ export interface Engine {
 export function newStats(): EngineStats {
   return {
     particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, clock: null,
-    memory: 0,
+    probes: [], memory: 0,
   };
 }
 

@@ -2,6 +2,7 @@
 import { newStats, type EngineStats, type Snapshot } from './engine.ts';
 import { createPointsRenderer, floatsPerParticle, type PointsFrame, type PointsRenderer } from './points.ts';
 import type { PickSource } from './pick.ts';
+import { ProbeSeries, type ProbeInfo, type ProbeSamples } from './probes.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { ColorBy, type View, type Weir } from './weir.ts';
 
@@ -25,7 +26,7 @@ export class CpuPicture {
   }
 
   // Takes over what drawing needs to know of the scene.
-  setScene(document: SceneDocument, particles: number, fluidSlots: number): void {
+  setScene(document: SceneDocument, particles: number, fluidSlots: number, probes: ProbeInfo[]): void {
     const scene = this.#weir.loadScene(document);
     const { min, max } = scene.domain;
     this.#frame.domainMin = min;
@@ -41,7 +42,12 @@ export class CpuPicture {
     this.stats.particles = particles;
     this.stats.diagnostics = null;
     this.stats.clock = null;
+    this.stats.probes = probes.map((info) => new ProbeSeries(info));
     this.stats.frameSteps = 0;
+  }
+
+  addSamples(samples: ProbeSamples[]): void {
+    for (const one of samples) this.stats.probes[one.probe]?.add(one);
   }
 
   // A new state, laid out as PointsFrame says.

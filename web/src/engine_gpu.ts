@@ -5,6 +5,7 @@ import {
 } from './engine.ts';
 import type { PickSource } from './pick.ts';
 import { Pace } from './pace.ts';
+import { ProbeReader, ProbeSeries } from './probes.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { Field, Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
@@ -56,6 +57,9 @@ export class GpuEngine implements Engine {
   #velocities = new Float32Array(0);
   #snapshot: Snapshot | null = null;
   #pick: PickSource | null = null;
+  #probes: ProbeReader | null = null;
+  #probing = false; // a copy for them is under way
+  #probed = 0;
   #wcsph = false;
   #timed = 0;
   #timeOffset = 0;
@@ -111,8 +115,12 @@ export class GpuEngine implements Engine {
       this.#timeOffset = from.time;
       this.#stepOffset = from.steps;
     }
+    this.#probes?.destroy();
     this.#sim?.destroy();
     this.#sim = next;
+    const probes = (this.#probes = new ProbeReader(next));
+    this.stats.probes = probes.infos.map((info) => new ProbeSeries(info));
+    this.#probing = false;
     this.#pace.reset();
     this.#stopped = false;
     this.#snapshot = null;
@@ -220,8 +228,10 @@ export class GpuEngine implements Engine {
   #measure(sim: Sim): void {
     const now = performance.now();
     if (this.#stopped || this.#destroyed) return;
-    if (this.#snapshotPhase === 'idle') this.#diagnose(sim, now);
-    if (!this.#diagnosing) this.#takeSnapshot(sim, now);
+    // One copy of the state at a time.
+    if (this.#snapshotPhase === 'idle' && !this.#probing) this.#diagnose(sim, now);
+    if (this.#snapshotPhase === 'idle' && !this.#diagnosing) this.#probe(sim, now);
+    if (!this.#diagnosing && !this.#probing) this.#takeSnapshot(sim, now);
     if (now - this.#timed > passTimesMs) {
       this.stats.passes = sim.passTimes();
       this.stats.memory = this.gpu.memory;
@@ -237,6 +247,15 @@ export class GpuEngine implements Engine {
       this.stats.diagnostics = diagnostics;
       this.#diagnosed = now;
     }
+  }
+
+  #probe(sim: Sim, now: number): void {
+    if (!this.#probing && now - this.#probed < 0.7 * diagnoseInterval(sim.particleCount)) return;
+    const samples = this.#probes ? this.#probes.update() : [];
+    this.#probing = samples === null;
+    if (!samples) return;
+    this.#probed = now;
+    for (const one of samples) this.stats.probes[one.probe]?.add(one);
   }
 
   // Positions, then velocities of a moment later: near enough to go on from after a loss.
@@ -287,6 +306,8 @@ export class GpuEngine implements Engine {
   }
   reset(): void {
     this.#sim?.reset();
+    this.#probes?.clear();
+    for (const series of this.stats.probes) series.clear();
     this.#timeOffset = this.#stepOffset = 0;
     this.#stopped = false;
   }
@@ -304,6 +325,8 @@ export class GpuEngine implements Engine {
     this.#destroyed = true;
     this.#canvas.remove();
     afterFrames(() => {
+      this.#probes?.destroy();
+      this.#probes = null;
       this.#sim?.destroy();
       this.#sim = null;
       this.#renderer.destroy();

@@ -32,8 +32,8 @@ export class MainEngine implements Engine {
 
   async start(scene: SceneDocument, from: Snapshot | null): Promise<void> {
     this.#runner.start(scene, from);
-    const { particles, dimension, fluidSlots } = this.#runner;
-    this.#picture.setScene(scene, particles, fluidSlots);
+    const { particles, dimension, fluidSlots, probes } = this.#runner;
+    this.#picture.setScene(scene, particles, fluidSlots, probes);
     this.#values = new Float32Array(floatsPerParticle(dimension) * particles);
     this.#stopped = false;
   }
@@ -51,6 +51,7 @@ export class MainEngine implements Engine {
       this.stats.time = frame.time;
       this.stats.stepMs = frame.stepMs;
       this.stats.clock = frame.clock;
+      this.#picture.addSamples(frame.samples);
       if (frame.diagnostics) this.stats.diagnostics = frame.diagnostics;
       this.#picture.setValues(this.#values);
     } catch (error) {
@@ -64,6 +65,7 @@ export class MainEngine implements Engine {
     this.#runner.step(count);
   }
   reset(): void {
+    for (const series of this.stats.probes) series.clear();
     this.#runner.reset();
     this.#stopped = false;
   }

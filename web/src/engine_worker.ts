@@ -93,12 +93,12 @@ export class WorkerEngine implements Engine {
     }
   }
 
-  #started({ particles, device, fluidSlots, dimension }: Extract<FromWorker, { type: 'started' }>): void {
+  #started({ particles, device, fluidSlots, dimension, probes }: Extract<FromWorker, { type: 'started' }>): void {
     const waiting = this.#waiting;
     if (!waiting) return;
     this.#scene = waiting.scene;
     this.device = `${device}, in a worker, drawn by ${this.#picture.renderer.name}`;
-    this.#picture.setScene(waiting.scene, particles, fluidSlots);
+    this.#picture.setScene(waiting.scene, particles, fluidSlots, probes);
     this.#front = null;
     this.#back = new ArrayBuffer(4 * floatsPerParticle(dimension) * particles);
     this.#asked = 0;
@@ -119,6 +119,7 @@ export class WorkerEngine implements Engine {
     stats.time = message.time;
     stats.stepMs = message.stepMs;
     stats.clock = message.clock;
+    this.#picture.addSamples(message.samples);
     if (message.diagnostics) stats.diagnostics = message.diagnostics;
     this.#picture.setValues(new Float32Array(message.buffer));
     if (message.busyMs > busyEnoughMs && this.#wallSince > 0) this.#ask();
@@ -175,6 +176,7 @@ export class WorkerEngine implements Engine {
     this.#ask();
   }
   reset(): void {
+    for (const series of this.stats.probes) series.clear();
     this.#stopped = false;
     this.#send({ type: 'reset' });
   }

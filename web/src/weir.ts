@@ -87,7 +87,7 @@ export const enum Look { hidden = 0, wall = 1, body = 2 }
 export type Ray = { origin: Triple; direction: Triple };
 
 // What the objects below share.
-type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly webgpu: WebGpuImports; weir: Weir };
+export type Context = { readonly memory: WeirMemory; readonly c: WeirExports; readonly webgpu: WebGpuImports; weir: Weir };
 
 const DIAGNOSTIC_COUNT = 14;
 const CLOCK_COUNT = 10;
@@ -419,6 +419,7 @@ export class Scene {
 type FieldBlock = { at: number; view: Float32Array };
 
 export class Sim {
+  readonly context: Context; // for what goes with a simulation: probes.ts
   readonly pointer: number; // WeirSim in wasm memory
   readonly particleCount: number;
   readonly fluidSlots: number; // ids below are fluid or empty slots, the others walls and bodies
@@ -430,7 +431,7 @@ export class Sim {
 
   constructor(context: Context, scene: Scene, options: { gpu?: Gpu; maxSteps?: number; maxLag?: number }) {
     const { memory, c } = context;
-    this.#context = context;
+    this.#context = this.context = context;
     let backend = 0;
     if (options.gpu) {
       const status = options.gpu.poll();

@@ -23,8 +23,8 @@ function act(cpu: CpuRunner, message: ToWorker): void {
     try {
       cpu.start(message.scene, message.from);
       run = message.run;
-      const { particles, device, fluidSlots, dimension } = cpu;
-      send({ type: 'started', run, particles, device, fluidSlots, dimension });
+      const { particles, device, fluidSlots, dimension, probes } = cpu;
+      send({ type: 'started', run, particles, device, fluidSlots, dimension, probes });
     } catch (error) {
       send({ type: 'refused', run: message.run, status: statusOf(error), message: textOf(error) });
     }

@@ -1,6 +1,7 @@
 // Messages between the page and the worker that runs the C solver. `run` numbers the scenes started, so that frames
 // of an earlier one are told apart.
 import type { Snapshot, Tool } from './engine.ts';
+import type { ProbeInfo, ProbeSamples } from './probes.ts';
 import type { SceneDocument } from './scene_document.ts';
 import type { Clock, ColorBy, Diagnostics, Status } from './weir.ts';
 
@@ -14,7 +15,15 @@ export type ToWorker =
   | { type: 'reset' };
 
 export type FromWorker =
-  | { type: 'started'; run: number; particles: number; device: string; fluidSlots: number; dimension: number }
+  | {
+      type: 'started';
+      run: number;
+      particles: number;
+      device: string;
+      fluidSlots: number;
+      dimension: number;
+      probes: ProbeInfo[];
+    }
   | { type: 'refused'; run: number; status: Status; message: string }
   | {
       type: 'frame';
@@ -26,6 +35,7 @@ export type FromWorker =
       busyMs: number;
       diagnostics: Diagnostics | null;
       clock: Clock | null;
+      samples: ProbeSamples[];
       buffer: ArrayBuffer;
     }
   | { type: 'fault'; run: number; status: Status; message: string };

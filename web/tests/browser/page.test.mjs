@@ -15,7 +15,9 @@ for (const kind of browsers) {
     let browser;
     before(async () => (browser = await launch(kind)));
     after(() => browser?.close());
-    const open = (query, options) => Tab.open(browser, `${server.url}?${query}`, options);
+    // The classic scene, unless the query names another one.
+    const open = (query, options) =>
+      Tab.open(browser, `${server.url}?${/scene=/.test(query) ? query : `${query}&scene=water`}`, options);
 
     test('starts on WebGPU, keeps its device and moves', async () => {
       const tab = await open('backend=gpu&particles=2000');
@@ -112,10 +114,12 @@ for (const kind of browsers) {
       assert.match(await tab.evaluate(() => document.getElementById('legend').innerText), /Pressure, kPa/);
       // A scene, by its key and by the list.
       const title = await tab.evaluate(() => document.title);
-      await tab.page.keyboard.press('3');
+      await tab.page.keyboard.press('4');
       await tab.until('another title', (old) => document.title !== old, title);
       const names = await tab.evaluate(() => window.weir.scenes.map((scene) => scene.name));
-      assert.equal(await tab.evaluate(() => window.weir.sceneName), names[2]);
+      assert.equal(await tab.evaluate(() => window.weir.sceneName), names[3]);
+      const groups = await tab.evaluate(() => [...document.querySelectorAll('optgroup')].map((group) => group.label));
+      assert.deepEqual(groups, ['3D', '2D', 'Classic (2D)']);
       assert.ok(await tab.evaluate(() => window.notReloaded));
       await tab.close();
     });
@@ -171,6 +175,68 @@ for (const kind of browsers) {
       await tab.page.keyboard.press('p');
       const hidden = await tab.evaluate(() => ['panel', 'plot'].map((id) => getComputedStyle(document.getElementById(id)).display));
       assert.deepEqual(hidden, ['none', 'none']);
+      await tab.close();
+    });
+
+    for (const backend of ['gpu', 'cpu']) {
+      test(`3D: alive, turned by a drag, stirred on the fluid (${backend})`, async () => {
+        const size = { width: 640, height: 420, deviceScaleFactor: 1 };
+        const tab = await open(`backend=${backend}&scene=dam_3d&particles=500`, { size });
+        await tab.frames(1);
+        await tab.evaluate(() => window.weir.togglePanel());
+        await tab.frames(1);
+        const first = await tab.pixels();
+        await tab.until('0.1 simulated seconds', () => window.weir.engine.stats.time > 0.1);
+        await tab.evaluate(() => window.weir.setPaused(true));
+        await tab.frames(3);
+        const later = await tab.pixels();
+        assert.ok(waterPixels(first) > 500, `water covers ${waterPixels(first)} pixels`);
+        assert.ok(changedPixels(first, later) > 100, `${changedPixels(first, later)} pixels changed`);
+        await tab.until('status line', () =>
+          /particles.*FPS.*time step.*\d Mach.*\d % density error/s.test(document.getElementById('status').innerText));
+        // Beside the fluid the drag turns the camera.
+        const pose = () => tab.evaluate(() => ({ ...window.weir.camera.view.camera }));
+        const before = await pose();
+        await tab.page.mouse.move(430, 60);
+        await tab.page.mouse.down();
+        await tab.page.mouse.move(300, 80, { steps: 4 });
+        await tab.page.mouse.up();
+        await tab.frames(3);
+        const turned = await tab.pixels();
+        assert.ok((await pose()).yaw > before.yaw + 0.5 && (await pose()).pitch > before.pitch);
+        assert.ok(changedPixels(later, turned) > 500, `${changedPixels(later, turned)} pixels changed by turning`);
+        await tab.page.mouse.wheel({ deltaY: -400 });
+        await tab.until('zoom', (was) => window.weir.camera.view.camera.distance < 0.8 * was, before.distance);
+        await tab.page.keyboard.press('v');
+        assert.ok(Math.abs((await pose()).yaw - before.yaw) < 1e-9 && Math.abs((await pose()).distance - before.distance) < 1e-9);
+        // On it the tool acts, where the ray meets the fluid.
+        await tab.until('positions', () => window.weir.engine.fluid() !== null);
+        const place = await tab.evaluate(() => window.weir.camera.toClient([0.4, 0.3, 1.38]));
+        await tab.page.mouse.move(...place);
+        await tab.page.mouse.down();
+        await tab.until('a tool', () => window.weir.pointer.tool.kind === 1);
+        const [x, y, z] = await tab.evaluate(() => window.weir.pointer.tool.position);
+        assert.ok(Math.hypot(x - 0.4, y - 0.3) < 0.25 && z > 1, `the tool is at ${x}, ${y}, ${z}`);
+        await tab.page.mouse.up();
+        assert.equal((await pose()).yaw, before.yaw);
+        await tab.close();
+      });
+    }
+
+    test('probes grow their plots', async () => {
+      const tab = await open('backend=cpu&scene=dam_2d&particles=800');
+      await tab.until('samples', () => (window.weir?.engine?.stats.probes[0]?.times.length ?? 0) > 5);
+      const { front, plots } = await tab.evaluate(() => ({
+        front: window.weir.engine.stats.probes[0].values[0], plots: document.querySelectorAll('#probes canvas').length,
+      }));
+      assert.equal(plots, 2);
+      assert.ok(front.at(-1) > front[0] && front[0] > 1.9 && front[0] < 2.1, `the front goes from ${front[0]} to ${front.at(-1)}`);
+      const drawn = await tab.evaluate(() => {
+        const canvas = document.querySelector('#probes canvas');
+        const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+        return data.filter((value, k) => k % 4 === 3 && value > 200).length;
+      });
+      assert.ok(drawn > 200, `${drawn} pixels drawn`);
       await tab.close();
     });
 
