@@ -97,8 +97,11 @@ static bool make_plan(Bench *bench)
 {
     const BenchOptions *options = &bench->options;
     Plan *plan = &bench->plan;
-    bool n20 = options->bench_case && strcmp(options->bench_case, "n20") == 0;
-    plan->bench_case = n20 ? WEIR_BENCH_N20 : WEIR_BENCH_ARTICLE;
+    static const char *const cases[] = {"article", "n20", "block_2d", "block_3d", "dam_2d", "dam_3d"};
+    plan->bench_case = WEIR_BENCH_ARTICLE;
+    for (size_t n = 0; options->bench_case && n < sizeof cases / sizeof cases[0]; ++n)
+        if (strcmp(options->bench_case, cases[n]) == 0) plan->bench_case = (WeirBenchCase)n;
+    bool article = plan->bench_case == WEIR_BENCH_ARTICLE;
     if (options->scene && (options->counts || options->bench_case)) {
         fprintf(stderr, "weir bench: --scene is measured as it is; leave out --counts and --case\n");
         return false;
@@ -107,11 +110,11 @@ static bool make_plan(Bench *bench)
     char threads[32] = "1";
     if (cores > 1) snprintf(threads, sizeof threads, "1,%ld", cores < 1024 ? cores : 1024);
     const char *counts = options->counts ? options->counts
-                         : n20           ? "32768,100000,1000000"
-                                         : "1000,5000,10000,32768";
-    const char *search = options->search         ? options->search
-                         : n20 || options->scene ? "grid"
-                                                 : "all_pairs,grid";
+                         : article       ? "1000,5000,10000,32768"
+                                         : "32768,100000,1000000";
+    const char *search = options->search              ? options->search
+                         : article && !options->scene ? "all_pairs,grid"
+                                                      : "grid";
     plan->cpu = plan->gpu = true;
     plan->gpu_must = options->backends != NULL;
     return parse_counts("--counts", counts, 1, 1u << 28, plan->counts, &plan->count_count) &&
@@ -169,12 +172,13 @@ static void fill_row(Row *row, const WeirSim *sim, const WeirDiagnostics *diagno
     snprintf(row->backend, sizeof row->backend, "%s", weir_sim_backend(sim));
     snprintf(row->device, sizeof row->device, "%s", weir_sim_device(sim));
     weir_cli_choice_name(scene, "search", row->search);
-    row->particles = weir_sim_particle_count(sim);
+    WeirClock clock = weir_sim_clock(sim);
+    row->particles = clock.fluid_particles; // walls take part, but are not counted
     row->threads = weir_sim_threads(sim);
     row->mean_neighbors = diagnostics->mean_neighbors;
     row->ms_per_step = 1e3 * step;
     row->particle_steps_per_second = row->particles / step;
-    row->real_time_factor = weir_cli_number(scene, "time_step") / step;
+    row->real_time_factor = clock.time_step / step;
     row->frames_per_second = 1.0 / step;
 }
 
@@ -261,7 +265,8 @@ static WeirStatus measure_backend(Bench *bench, WeirScene *scene, const WeirBack
     for (int k = 0; k < 2; ++k) {
         Row row = {0};
         if (!wanted[k]) continue;
-        weir_scene_set_parameter_text(scene, "search", names[k]);
+        if (!weir_bench_is_wcsph(bench->plan.bench_case))
+            weir_scene_set_parameter_text(scene, "search", names[k]);
         WeirStatus status = measure_row(scene, backend, threads, bench->options.seconds, &row);
         if (status) return status;
         print_row(bench, &row);
@@ -340,14 +345,14 @@ static int bench_command(int argument_count, char **arguments)
 #define FIELD(field) offsetof(BenchOptions, field)
 static const WeirOption bench_options[] = {
     {"--counts", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(counts), 0, 0,
-     "particles; 1000,5000,10000,32768 (n20: 32768,100000,1000000)"},
+     "particles of fluid; article: 1000,5000,10000,32768; others: 32768,100000,1000000"},
     {"--backends", WEIR_OPTION_TEXT, "cpu,gpu", NULL, FIELD(backends), 0, 0,
      "cpu, and gpu if it is a real one; by name: any adapter"},
     {"--search", WEIR_OPTION_TEXT, "all_pairs,grid", NULL, FIELD(search), 0, 0,
-     "both; n20 and --scene: grid"},
+     "both; all but article: grid"},
     {"--threads", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(threads), 0, 0, "on the CPU; 1 and one per core"},
-    {"--case", WEIR_OPTION_CHOICE, NULL, "article|n20", FIELD(bench_case), 0, 0,
-     "the tutorial's parameters, or about 20 neighbours"},
+    {"--case", WEIR_OPTION_CHOICE, NULL, "article|n20|block_2d|block_3d|dam_2d|dam_3d", FIELD(bench_case), 0,
+     0, "the tutorial's parameters; about 20 neighbours; wcsph without and with walls"},
     {"--scene", WEIR_OPTION_TEXT, "FILE", NULL, FIELD(scene), 0, 0, "measure a scene file instead"},
     {"--seconds", WEIR_OPTION_NUMBER, "S", NULL, FIELD(seconds), 0.001, 600, "to spend on a row; 1"},
     {"--json", WEIR_OPTION_FLAG, NULL, NULL, FIELD(json), 0, 0, "print a list of objects"},

@@ -30,10 +30,42 @@ static void set_n20_parameters(WeirScene *scene)
     weir_scene_set_number(scene, "parameters.time_step", 0.5 * weir_scene_stable_time_step(scene));
 }
 
+bool weir_bench_is_wcsph(WeirBenchCase bench_case)
+{
+    return bench_case >= WEIR_BENCH_BLOCK_2D;
+}
+
+// Square or cubic fluid of about `count` particles.
+static void make_wcsph(WeirScene *scene, WeirBenchCase bench_case, uint32_t count)
+{
+    bool deep = bench_case == WEIR_BENCH_BLOCK_3D || bench_case == WEIR_BENCH_DAM_3D;
+    bool dam = bench_case == WEIR_BENCH_DAM_2D || bench_case == WEIR_BENCH_DAM_3D;
+    static const double spacing = 0.01;
+    static const char *const titles[] = {"block_2d", "block_3d", "dam_2d", "dam_3d"};
+    double side = spacing * fmax(1.0, floor((deep ? cbrt(count) : sqrt(count)) + 0.5));
+    double low = dam ? 0.0 : -side, wide = 2.0 * side, high = dam ? 1.5 * side : wide;
+    weir_scene_set_string(scene, "title", titles[bench_case - WEIR_BENCH_BLOCK_2D]);
+    weir_scene_set_string(scene, "method", "wcsph");
+    weir_scene_set_number(scene, "dimension", deep ? 3 : 2);
+    weir_scene_set_number(scene, "parameters.particle_spacing", spacing);
+    weir_scene_set_number(scene, "parameters.support_radius", (deep ? 2.1 : 2.5) * spacing);
+    weir_scene_set_domain(scene, (double[3]){low, low, low}, (double[3]){wide, high, dam ? side : wide});
+    if (!dam) {
+        weir_scene_set_string(scene, "domain.open", deep ? "-x +x -y +y -z +z" : "-x +x -y +y");
+        weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0.0, 0.0, 0.0}, 3);
+        weir_scene_set_number(scene, "parameters.sound_speed", 30.0);
+    }
+    weir_scene_add_box(scene, (double[3]){0.0, 0.0, 0.0}, (double[3]){side, side, side}, NULL);
+}
+
 WeirScene *weir_bench_scene(WeirBenchCase bench_case, uint32_t count)
 {
     WeirScene *scene = weir_scene_create();
     if (!scene) return NULL;
+    if (weir_bench_is_wcsph(bench_case)) {
+        make_wcsph(scene, bench_case, count);
+        return scene;
+    }
     if (bench_case == WEIR_BENCH_ARTICLE) {
         set_article_parameters(scene);
     } else {

@@ -39,6 +39,14 @@ class Bench(WeirTest):
         self.assertEqual(len(lines), 2)
         self.assertEqual(lines[1].split()[:4], ["128", "cpu", "grid", "1"])
 
+    def test_wcsph_counts_its_fluid(self):
+        for case, neighbors in (("block_2d", 19.6), ("dam_2d", 19.6), ("dam_3d", 30)):
+            rows = json.loads(self.bench("--case", case, "--counts", "1000", "--threads", "1", "--json"))
+            self.assertEqual(len(rows), 1)
+            self.assertEqual(rows[0]["scene"], case)
+            self.assertTrue(960 <= rows[0]["particles"] <= 1040, rows[0])
+            self.assertTrue(0.6 * neighbors < rows[0]["mean_neighbors"] < 1.1 * neighbors, rows[0])
+
     def test_case_n20_has_about_twenty_neighbours(self):
         rows = json.loads(self.bench("--case", "n20", "--counts", "10000", "--threads", "1", "--json"))
         self.assertEqual([row["search"] for row in rows], ["grid"])
