@@ -36,7 +36,7 @@ fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
                 if DIFFUSION {
                     // rho_j - rho_i less what the height between them makes
                     let excess = neighbor.w - own_motion.w + dot(offset, hydrostatic);
-                    diffusion += select(0.0, slope * excess, !HAS_SOLIDS || is_fluid(u32(other.w)));
+                    diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
                 }
             }
         }

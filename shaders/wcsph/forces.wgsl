@@ -59,7 +59,7 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
             let offset = Vector(walk.place - place_of(other));
             let r_squared = dot(offset, offset);
             let group = u32(other.w);
-            let fluid = !HAS_SOLIDS || is_fluid(group);
+            let fluid = !HAS_SOLIDS || !is_solid(group); // no empty slot is in a run
             let acts = fluid || !solid;
             // The kernel is 0 beyond the support: no branch is needed.
             if BRANCH_FREE || (acts && r_squared < support * support) {

@@ -53,7 +53,7 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
             let other = sorted_coordinate[j];
             let offset = Vector(walk.place - place_of(other));
             let r_squared = dot(offset, offset);
-            if r_squared < support * support && is_fluid(u32(other.w)) {
+            if !is_solid(u32(other.w)) && r_squared < support * support {
                 let fluid = sorted_motion[j];
                 let w = kernel_shape(sqrt(r_squared) * constants.inverse_support);
                 weight += w;
