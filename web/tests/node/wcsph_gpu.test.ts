@@ -22,6 +22,14 @@ const tank = {
   domain: { min: [0, 0], max: [0.8, 0.6] },
   fluid: [{ ...box([0, 0], [0.4, 0.4]), velocity: [1, 0] }],
 };
+// Some of everything that has a shader of its own.
+const lively = {
+  ...tank,
+  walls: [{ name: 'gate', ...box([0.7, 0], [0.8, 0.3]), motion: { amplitude: [-0.02, 0], period: 0.1 } }],
+  bodies: [{ name: 'block', ...box([0.5, 0.3], [0.65, 0.45]), density: 500 }],
+  emitters: [{ center: [0.2, 0.55], direction: [0, -1], size: 0.15, speed: 2, capacity: 50 }],
+  drains: [{ min: [0.3, 0], max: [0.4, 0.1] }],
+};
 const deep = {
   ...tank,
   dimension: 3,
@@ -54,4 +62,5 @@ async function follow(document: object, steps: number, tolerance: number): Promi
 }
 
 test('2D: 40 steps of a tank follow the C solver', () => follow(tank, 40, 1e-3));
+test('2D: moving wall, body, emitter and drain', () => follow(lively, 40, 5e-3));
 test('3D: 20 steps follow the C solver', () => follow(deep, 20, 1e-3));
