@@ -2,10 +2,10 @@
 fn pressure_of(density: f32) -> f32 {
     let stiffness = constants.sound_speed * constants.sound_speed;
     if TAIT {
-        let ratio = density * (1.0 / parameters.rest_density);
-        let cube = ratio * ratio * ratio;
-        return parameters.rest_density * stiffness / 7.0 * (cube * cube * ratio - 1.0)
-            + parameters.background_pressure;
+        // (1 + x)^7 - 1 as a polynomial: no small difference of large numbers, and no division.
+        let x = (density - parameters.rest_density) * (1.0 / parameters.rest_density);
+        let sum = 7.0 + x * (21.0 + x * (35.0 + x * (35.0 + x * (21.0 + x * (7.0 + x)))));
+        return parameters.rest_density * stiffness / 7.0 * x * sum + parameters.background_pressure;
     }
     return linear_pressure(density);
 }

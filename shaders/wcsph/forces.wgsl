@@ -17,12 +17,11 @@
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
 struct Sums {
-    pressure: Vector,   // of p_j
+    pressure: Vector,   // of p_j, and what else acts along x, scaled to it
     gradient: Vector,   // of 1
-    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid
+    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid; with LAMINAR alone, else in pressure
     laminar: Vector,    // of v, between fluid
     friction: Vector,   // of v, between fluid and no-slip solids
-    barrier: Vector,    // between fluid and solid
     clustering: Vector, // of (W / W(spacing))^4
     surface: f32,
 }
@@ -47,6 +46,10 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     let h = constants.smoothing_length * constants.inverse_quantum;
     let soft = 1e-4 * h * h;
     let barrier_range = BARRIER_RANGE * parameters.particle_spacing * constants.inverse_quantum;
+    // What the sum of pressures is multiplied by at the end undoes itself for the barrier and for viscosity.
+    let barrier_scale = BARRIER_STRENGTH * constants.sound_speed * constants.sound_speed / parameters.particle_spacing
+        / pressure_scale(own_motion.w);
+    let viscous_scale = constants.viscosity_factor / constants.quantum;
     let inverse_spacing_value = 1.0 / constants.spacing_value;
     let velocity = vector_of(own_motion);
     let stick = sticks(u32(own.w));
@@ -72,13 +75,17 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                 }
                 let relative = velocity - vector_of(neighbor);
                 if VISCOUS {
-                    let approach = dot(relative, offset) / (r_squared + soft);
-                    sums.viscous += select(0.0, slope * approach, fluid && !solid) * offset;
+                    let approach = select(0.0, dot(relative, offset) / (r_squared + soft), fluid && !solid);
+                    if LAMINAR {
+                        sums.viscous += (slope * approach) * offset;
+                    } else {
+                        pressure -= viscous_scale * approach;
+                    }
                 }
                 if LAMINAR {
                     sums.laminar += select(0.0, slope, fluid && !solid) * relative;
                 }
-                sums.pressure += (slope * pressure) * offset;
+                var along = slope * pressure;
                 sums.gradient += slope * offset;
                 if HAS_SOLIDS && fluid == solid {
                     if LAMINAR {
@@ -87,8 +94,9 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                     let r = max(sqrt(r_squared), barrier_range / 3.0);
                     let push = max(barrier_range / r - 1.0, 0.0);
                     let approach = BARRIER_DAMPING / constants.sound_speed * dot(relative, offset) / r;
-                    sums.barrier += (push * (1.0 + max(-approach, 0.0)) / r) * offset;
+                    along += barrier_scale * push * (1.0 + max(-approach, 0.0)) / r;
                 }
+                sums.pressure += along * offset;
                 if SHIFTING {
                     let near = power4(kernel_shape(s) * inverse_spacing_value);
                     sums.clustering += (slope * near) * offset;
@@ -100,18 +108,22 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     return sums;
 }
 
+// m/s^2 per unit of the sum of pressures.
+fn pressure_scale(density: f32) -> f32 {
+    return -constants.quantum * constants.particle_mass * constants.gradient_factor / density;
+}
+
 // By pressure and viscosity. `own_pressure` as it enters the sum; `inside`: of fluid whose support is full.
 fn acceleration_of(sums: Sums, density: f32, own_pressure: f32, inside: bool) -> Vector {
     let scale = constants.particle_mass * constants.gradient_factor / density;
-    var sum = -constants.quantum * (sums.pressure + own_pressure * sums.gradient);
-    if VISCOUS {
+    var sum = Vector();
+    if VISCOUS && LAMINAR {
         sum += select(constants.viscosity_factor, constants.artificial_factor, inside) * sums.viscous;
     }
     if LAMINAR {
         sum += (2.0 * parameters.viscosity) * (sums.friction + select(0.0, 1.0, inside) * sums.laminar);
     }
-    let barrier = BARRIER_STRENGTH * constants.sound_speed * constants.sound_speed / parameters.particle_spacing;
-    return scale * sum + barrier * sums.barrier;
+    return scale * sum + pressure_scale(density) * (sums.pressure + own_pressure * sums.gradient);
 }
 
 // WeirToolKind

@@ -89,45 +89,70 @@ static void pieces_that_cannot_be_are_refused(void **state)
         {2, "walls[0].box.min 1 0; walls[0].ball.radius 1", {"walls[0].ball.radius", "box and a ball"}},
         {2, "walls[0].cylinder.radius 1", {"walls[0].cylinder", "dimension 3"}},
         {3, "walls[0].polygon[0] 1 1", {"walls[0].polygon", "dimension 2"}},
-        {3, "walls[0].cylinder.from 1 0 1; walls[0].cylinder.to 1 0 1; walls[0].cylinder.radius 0.2",
+        {3,
+         "walls[0].cylinder.from 1 0 1; walls[0].cylinder.to 1 0 1; walls[0].cylinder.radius 0.2",
          {"walls[0].cylinder", "same point"}},
         {2, "walls[0].polygon[0] 1 1; walls[0].polygon[1] 2 1", {"walls[0].polygon", "2 corners", "3"}},
         {2, "walls[0].polygon[1] 1 1", {"walls[0].polygon[1]", "in order", "[0]"}},
-        {2, "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 1 0; walls[0].polygon[3] 0 1",
+        {2,
+         "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 1 0; walls[0].polygon[3] 0 1",
          {"walls[0].polygon", "cross"}},
-        {2, "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 2 2", {"walls[0].polygon", "no area"}},
-        {2, "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 1 1", {"polygon[2]", "twice"}},
+        {2,
+         "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 2 2",
+         {"walls[0].polygon", "no area"}},
+        {2,
+         "walls[0].polygon[0] 0 0; walls[0].polygon[1] 1 1; walls[0].polygon[2] 1 1",
+         {"polygon[2]", "twice"}},
         {3, "walls[0].mesh.file a.stl", {"walls[0].mesh.file", "a.stl", "command line only", "vertices"}},
         {3, "walls[0].mesh.vertices 0 0 0 1 0 0 0 1 0 0 0 1", {"walls[0]", "mesh.triangles", "missing"}},
-        {3, "walls[0].mesh.vertices 0 0 0 1 0 0 0 1 0 0 0 1; walls[0].mesh.triangles 0 2 1 0 1 3 0 3 2 1 2 9",
+        {3,
+         "walls[0].mesh.vertices 0 0 0 1 0 0 0 1 0 0 0 1; walls[0].mesh.triangles 0 2 1 0 1 3 0 3 2 1 2 9",
          {"walls[0].mesh.triangles[3]", "corner 9", "4 vertices"}},
-        {3, "walls[0].mesh.vertices 0 0 0 1 0 0 0 1 0 0 0 1; walls[0].mesh.triangles[0] 0 2 1.5",
+        {3,
+         "walls[0].mesh.vertices 0 0 0 1 0 0 0 1 0 0 0 1; walls[0].mesh.triangles[0] 0 2 1.5",
          {"walls[0].mesh.triangles[0]", "1.5", "whole"}},
         {3, "walls[0].mesh.vertices 0 0 0 1", {"walls[0].mesh.vertices", "list of 4"}},
         // Walls.
         {2, "walls[0].box.min 3 0; walls[0].box.max 4 1", {"walls[0]", "no particle", "outside"}},
-        {2, "walls[0].box.min 0 0; walls[0].box.max 1 1; walls[0].name domain", {"walls[0].name", "domain", "taken"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].name a; walls[1].box.min 0 0; walls[1].box.max "
-            "0.2 1; walls[1].name a",
+        {2,
+         "walls[0].box.min 0 0; walls[0].box.max 1 1; walls[0].name domain",
+         {"walls[0].name", "domain", "taken"}},
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].name a; walls[1].box.min 0 0; "
+         "walls[1].box.max "
+         "0.2 1; walls[1].name a",
          {"walls[0].name", "\"a\"", "taken"}},
         {2, "walls[0].name abcdefghijklmnopqrstuvwxyzabcdefgh", {"walls[0].name", "34", "31"}},
         {2, "walls[0].inside 1", {"walls[0].inside", "true or false"}},
         {2, "walls[0].colour red", {"walls[0].colour", "unknown key", "surface_velocity"}},
         {2, "walls[0].box.min 0 0; walls[0].box.max 2 0.4", {"fluid[0]", "nothing is left"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].surface_velocity 1 0; walls[0].motion.velocity 1 0",
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].surface_velocity 1 0; "
+         "walls[0].motion.velocity 1 0",
          {"walls[0]", "surface_velocity", "motion"}},
         // Motions.
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.amplitude 1 0", {"walls[0]", "motion.period"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.period 1", {"walls[0]", "motion.amplitude"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.velocity 1 0; walls[0].motion.rows[0] 0 0 0 "
-            "0; walls[0].motion.rows[1] 1 0 0 0",
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.amplitude 1 0",
+         {"walls[0]", "motion.period"}},
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.period 1",
+         {"walls[0]", "motion.amplitude"}},
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.velocity 1 0; walls[0].motion.rows[0] "
+         "0 0 0 "
+         "0; walls[0].motion.rows[1] 1 0 0 0",
          {"walls[0].motion", "velocity", "rows"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows[0] 0 0 0 0", {"walls[0].motion.rows", "2"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows 0 0 0 0 1 0 0 0 1 0 0 0",
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows[0] 0 0 0 0",
+         {"walls[0].motion.rows", "2"}},
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows 0 0 0 0 1 0 0 0 1 0 0 0",
          {"walls[0].motion.rows[2]", "above 1"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows -1 0 0 0 1 0 0 0",
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows -1 0 0 0 1 0 0 0",
          {"walls[0].motion.rows[0]", "-1"}},
-        {2, "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows 0 0 1 0 1 0 0 0",
+        {2,
+         "walls[0].box.min 1 0; walls[0].box.max 2 1; walls[0].motion.rows 0 0 1 0 1 0 0 0",
          {"walls[0].motion.rows[0]", "moved already"}},
         {2, "walls[0].motion.rows[0] 0 0 0", {"walls[0].motion.rows[0]", "[t, dx, dy, angle]"}},
         {3, "walls[0].motion.rows[0] 0 0 0 0", {"walls[0].motion.rows[0]", "[t, dx, dy, dz, rx, ry, rz]"}},
@@ -135,12 +160,18 @@ static void pieces_that_cannot_be_are_refused(void **state)
         {3, "walls[0].motion.angular_velocity 1", {"angular_velocity", "[x, y, z]"}},
         // Bodies.
         {2, "bodies[0].box.min 1 0.5; bodies[0].box.max 1.2 0.7", {"bodies[0]", "density", "missing"}},
-        {2, "bodies[0].density 500; bodies[0].box.min 1 0.5; bodies[0].box.max 1.2 1.1", {"bodies[0]", "1.1", "0 to 1"}},
-        {2, "bodies[0].density 500; bodies[0].ball.center 1 0.7; bodies[0].ball.radius 0.2; bodies[1].density 500; "
-            "bodies[1].ball.center 1.1 0.7; bodies[1].ball.radius 0.1",
+        {2,
+         "bodies[0].density 500; bodies[0].box.min 1 0.5; bodies[0].box.max 1.2 1.1",
+         {"bodies[0]", "1.1", "0 to 1"}},
+        {2,
+         "bodies[0].density 500; bodies[0].ball.center 1 0.7; bodies[0].ball.radius 0.2; bodies[1].density "
+         "500; "
+         "bodies[1].ball.center 1.1 0.7; bodies[1].ball.radius 0.1",
          {"bodies[0]", "reaches into bodies[1]"}},
-        {2, "bodies[0].density 500; bodies[0].ball.center 1 0.7; bodies[0].ball.radius 0.2; walls[0].box.min 1 0.5; "
-            "walls[0].box.max 1.5 0.7",
+        {2,
+         "bodies[0].density 500; bodies[0].ball.center 1 0.7; bodies[0].ball.radius 0.2; walls[0].box.min 1 "
+         "0.5; "
+         "walls[0].box.max 1.5 0.7",
          {"bodies[0]", "reaches into walls[0]"}},
         {2, "bodies[0].density 0", {"bodies[0].density", "0.001"}},
         {2, "bodies[0].fixed xz", {"bodies[0].fixed", "xz", "axes"}},
@@ -150,20 +181,27 @@ static void pieces_that_cannot_be_are_refused(void **state)
         {2, "emitters[0].size 0.1", {"emitters[0]", "center", "missing"}},
         {2, "emitters[0].center 1 0.8", {"emitters[0]", "direction", "missing"}},
         {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1", {"emitters[0]", "size", "missing"}},
-        {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1", {"emitters[0]", "speed"}},
-        {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
-            "emitters[0].flow_rate 1",
+        {2,
+         "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1",
+         {"emitters[0]", "speed"}},
+        {2,
+         "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
+         "emitters[0].flow_rate 1",
          {"emitters[0]", "speed and flow_rate"}},
-        {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
-            "emitters[0].start 2; emitters[0].stop 1",
+        {2,
+         "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
+         "emitters[0].start 2; emitters[0].stop 1",
          {"emitters[0]", "stop = 1", "start = 2"}},
-        {2, "emitters[0].center 1 0.97; emitters[0].direction 0 1; emitters[0].size 0.1; emitters[0].speed 1",
+        {2,
+         "emitters[0].center 1 0.97; emitters[0].direction 0 1; emitters[0].size 0.1; emitters[0].speed 1",
          {"emitters[0]", "out of the domain", "y"}},
-        {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
-            "walls[0].box.min 0.9 0.5; walls[0].box.max 1.5 0.75",
+        {2,
+         "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
+         "walls[0].box.min 0.9 0.5; walls[0].box.max 1.5 0.75",
          {"emitters[0]", "blows into walls[0]"}},
-        {2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
-            "bodies[0].box.min 0.9 0.5; bodies[0].box.max 1.5 0.75; bodies[0].density 1",
+        {2,
+         "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.1; emitters[0].speed 1; "
+         "bodies[0].box.min 0.9 0.5; bodies[0].box.max 1.5 0.75; bodies[0].density 1",
          {"emitters[0]", "blows into bodies[0]"}},
         {2, "emitters[0].capacity 1.5", {"emitters[0].capacity", "whole number"}},
         {2, "drains[0].min 1 0", {"drains[0]", "max", "missing"}},
@@ -189,7 +227,8 @@ static void pieces_that_cannot_be_are_refused(void **state)
         WeirStatus status = set_all(scene, refused[n].keys);
         if (!status) status = weir_scene_check(scene);
         if (status != WEIR_ERROR_INPUT) fail_msg("%s: gave status %d", refused[n].keys, (int)status);
-        for (int k = 0; k < 4 && refused[n].says[k]; ++k) CHECK_CONTAINS(weir_scene_error(scene), refused[n].says[k]);
+        for (int k = 0; k < 4 && refused[n].says[k]; ++k)
+            CHECK_CONTAINS(weir_scene_error(scene), refused[n].says[k]);
         weir_scene_destroy(scene);
     }
 }
@@ -197,9 +236,10 @@ static void pieces_that_cannot_be_are_refused(void **state)
 static void names_find_their_solids(void **state)
 {
     (void)state;
-    WeirScene *scene = tank_with(2, "walls[0].box.min 0.5 0; walls[0].box.max 0.7 0.2; walls[0].name step; "
-                                    "bodies[0].box.min 1 0.5; bodies[0].box.max 1.2 0.7; bodies[0].density 500; "
-                                    "bodies[0].name cork");
+    WeirScene *scene =
+        tank_with(2, "walls[0].box.min 0.5 0; walls[0].box.max 0.7 0.2; walls[0].name step; "
+                     "bodies[0].box.min 1 0.5; bodies[0].box.max 1.2 0.7; bodies[0].density 500; "
+                     "bodies[0].name cork");
     assert_int_equal(weir_scene_solid_index(scene, "domain"), 0);
     assert_int_equal(weir_scene_solid_index(scene, "step"), 1);
     assert_int_equal(weir_scene_solid_index(scene, "cork"), 2);
@@ -215,8 +255,9 @@ static void names_find_their_solids(void **state)
 static void solids_follow_the_fluid(void **state)
 {
     (void)state;
-    WeirScene *scene = tank_with(2, "walls[0].box.min 0.5 0; walls[0].box.max 0.7 0.2; "
-                                    "bodies[0].box.min 1 0.3; bodies[0].box.max 1.2 0.5; bodies[0].density 500");
+    WeirScene *scene =
+        tank_with(2, "walls[0].box.min 0.5 0; walls[0].box.max 0.7 0.2; "
+                     "bodies[0].box.min 1 0.3; bodies[0].box.max 1.2 0.5; bodies[0].density 500");
     WeirWorld world = world_of(scene);
     assert_int_equal(world.solid_count, 3);
     assert_int_equal(world.particles.fluid_slots, 40 * 8 - 4 * 4 - 4 * 2);
@@ -268,7 +309,8 @@ static void bodies_have_their_mass(void **state)
     (void)state;
     WeirScene *scene = tank_with(
         2, "bodies[0].box.min 0.2 0.5; bodies[0].box.max 0.6 0.7; bodies[0].density 500; bodies[0].fixed x; "
-           "bodies[0].velocity 0 1; bodies[1].ball.center 1 0.7; bodies[1].ball.radius 0.2; bodies[1].density 200; "
+           "bodies[0].velocity 0 1; bodies[1].ball.center 1 0.7; bodies[1].ball.radius 0.2; "
+           "bodies[1].density 200; "
            "bodies[1].fixed_rotation z; bodies[2].polygon[0] 1.4 0.5; bodies[2].polygon[1] 1.4 0.8; "
            "bodies[2].polygon[2] 1.8 0.5; bodies[2].density 1000; bodies[2].angular_velocity 2");
     WeirWorld world = world_of(scene);
@@ -278,7 +320,8 @@ static void bodies_have_their_mass(void **state)
     CHECK_NEAR(body[0].position[0], 0.4, 1e-6);
     CHECK_NEAR(body[0].velocity[1], 1, 0);
     CHECK_NEAR(body[0].freedom[0] + 10 * body[0].freedom[1] + 100 * body[0].freedom[2], 10, 0);
-    CHECK_NEAR(body[0].angular_freedom[0] + body[0].angular_freedom[1] + 10 * body[0].angular_freedom[2], 10, 0);
+    CHECK_NEAR(body[0].angular_freedom[0] + body[0].angular_freedom[1] + 10 * body[0].angular_freedom[2], 10,
+               0);
     double area = 3.14159265358979 * 0.04;
     CHECK_NEAR(body[1].mass, 200 * area, 1e-4);
     CHECK_NEAR(moment_2d(&body[1]), 200 * area * 0.02, 1e-5);
@@ -298,19 +341,26 @@ static void bodies_have_their_mass(void **state)
 static void solid_moments_in_3d(void **state)
 {
     (void)state;
-    WeirScene *scene = tank_with(
-        3, "bodies[0].mesh.vertices 0 0 0 2 0 0 0 1 0 2 1 0; bodies[0].mesh.vertices[4] 0 0 1; "
-           "bodies[0].mesh.vertices[5] 2 0 1; bodies[0].mesh.vertices[6] 0 1 1; bodies[0].mesh.vertices[7] 2 1 1; "
-           "bodies[0].mesh.triangles[0] 0 2 1; bodies[0].mesh.triangles[1] 1 2 3; bodies[0].mesh.triangles[2] 4 5 6; "
-           "bodies[0].mesh.triangles[3] 5 7 6; bodies[0].mesh.triangles[4] 0 1 4; bodies[0].mesh.triangles[5] 1 5 4; "
-           "bodies[0].mesh.triangles[6] 2 6 3; bodies[0].mesh.triangles[7] 3 6 7; bodies[0].mesh.triangles[8] 0 4 2; "
-           "bodies[0].mesh.triangles[9] 2 4 6; bodies[0].mesh.triangles[10] 1 3 5; bodies[0].mesh.triangles[11] 3 7 5");
-    CHECK_SCENE(scene,
-                set_all(scene, "bodies[0].mesh.scale 0.2; bodies[0].mesh.translate 0.3 0.5 0.3; bodies[0].density 500; "
-                               "bodies[1].cylinder.from 1.2 0.6 0.3; bodies[1].cylinder.to 1.2 0.6 0.7; "
-                               "bodies[1].cylinder.radius 0.1; bodies[1].density 400; bodies[2].ball.center 1.7 0.7 0.5; "
-                               "bodies[2].ball.radius 0.2; bodies[2].density 300"),
-                WEIR_OK);
+    WeirScene *scene =
+        tank_with(3, "bodies[0].mesh.vertices 0 0 0 2 0 0 0 1 0 2 1 0; bodies[0].mesh.vertices[4] 0 0 1; "
+                     "bodies[0].mesh.vertices[5] 2 0 1; bodies[0].mesh.vertices[6] 0 1 1; "
+                     "bodies[0].mesh.vertices[7] 2 1 1; "
+                     "bodies[0].mesh.triangles[0] 0 2 1; bodies[0].mesh.triangles[1] 1 2 3; "
+                     "bodies[0].mesh.triangles[2] 4 5 6; "
+                     "bodies[0].mesh.triangles[3] 5 7 6; bodies[0].mesh.triangles[4] 0 1 4; "
+                     "bodies[0].mesh.triangles[5] 1 5 4; "
+                     "bodies[0].mesh.triangles[6] 2 6 3; bodies[0].mesh.triangles[7] 3 6 7; "
+                     "bodies[0].mesh.triangles[8] 0 4 2; "
+                     "bodies[0].mesh.triangles[9] 2 4 6; bodies[0].mesh.triangles[10] 1 3 5; "
+                     "bodies[0].mesh.triangles[11] 3 7 5");
+    CHECK_SCENE(
+        scene,
+        set_all(scene,
+                "bodies[0].mesh.scale 0.2; bodies[0].mesh.translate 0.3 0.5 0.3; bodies[0].density 500; "
+                "bodies[1].cylinder.from 1.2 0.6 0.3; bodies[1].cylinder.to 1.2 0.6 0.7; "
+                "bodies[1].cylinder.radius 0.1; bodies[1].density 400; bodies[2].ball.center 1.7 0.7 0.5; "
+                "bodies[2].ball.radius 0.2; bodies[2].density 300"),
+        WEIR_OK);
     WeirWorld world = world_of(scene);
     const WeirSolid *body = &world.solids[1];
     double mass = 500 * 0.4 * 0.2 * 0.2;
@@ -350,14 +400,16 @@ static void motions_become_tables(void **state)
     for (double t = 0; t < 2; t += 0.0137) {
         WeirMotionRow now;
         const WeirSolid *solid = &world.solids[1];
-        weir_motion_at(&world.motion[solid->motion_first], solid->motion_count, solid->motion_repeats, t, &now);
+        weir_motion_at(&world.motion[solid->motion_first], solid->motion_count, solid->motion_repeats, t,
+                       &now);
         double phase = 2 * 3.14159265358979 * t / 0.7;
         CHECK_NEAR(now.displacement[0], 0.1 * sin(phase), 2e-6);
         CHECK_NEAR(now.displacement[1], 0.2 * sin(phase), 2e-6);
         CHECK_NEAR(now.rotation[2], 0.3 * sin(phase), 2e-6);
         CHECK_NEAR(now.displacement_rate[0], 0.1 * 2 * 3.14159265358979 / 0.7 * cos(phase), 2e-4);
         solid = &world.solids[2];
-        weir_motion_at(&world.motion[solid->motion_first], solid->motion_count, solid->motion_repeats, t, &now);
+        weir_motion_at(&world.motion[solid->motion_first], solid->motion_count, solid->motion_repeats, t,
+                       &now);
         CHECK_NEAR(now.displacement[0], 0.5 * t, 1e-6);
         CHECK_NEAR(now.displacement[1], -0.25 * t, 1e-6);
         CHECK_NEAR(now.rotation[2], 2 * t, 1e-5);
@@ -376,9 +428,10 @@ static void motions_become_tables(void **state)
 static void emitters_have_points_and_slots(void **state)
 {
     (void)state;
-    WeirScene *scene = tank_with(2, "emitters[0].center 1 0.8; emitters[0].direction 0 -2; emitters[0].size 0.2; "
-                                    "emitters[0].flow_rate 0.1; emitters[0].capacity 77; drains[0].min 0 0; "
-                                    "drains[0].max 0.1 0.1");
+    WeirScene *scene =
+        tank_with(2, "emitters[0].center 1 0.8; emitters[0].direction 0 -2; emitters[0].size 0.2; "
+                     "emitters[0].flow_rate 0.1; emitters[0].capacity 77; drains[0].min 0 0; "
+                     "drains[0].max 0.1 0.1");
     WeirWorld world = world_of(scene);
     assert_int_equal(world.emitter_count, 1);
     assert_int_equal(world.point_count, 4);
@@ -395,8 +448,9 @@ static void emitters_have_points_and_slots(void **state)
     CHECK_NEAR(world.drains[0].max[1], 0.1, 1e-7);
     weir_world_free(&world);
     // Chosen: what the domain can hold beside the water, or what comes while it is open.
-    WeirScene *chosen = tank_with(2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.2; "
-                                     "emitters[0].speed 1");
+    WeirScene *chosen =
+        tank_with(2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.2; "
+                     "emitters[0].speed 1");
     world = world_of(chosen);
     assert_int_equal(world.particles.fluid_slots, 800 + 4 * 4);
     weir_world_free(&world);
@@ -418,8 +472,9 @@ static void emitters_have_points_and_slots(void **state)
 static void inlets_open_the_wall(void **state)
 {
     (void)state;
-    WeirScene *scene = tank_with(2, "emitters[0].center 0 0.8; emitters[0].direction 1 0; emitters[0].size 0.2; "
-                                    "emitters[0].speed 1");
+    WeirScene *scene =
+        tank_with(2, "emitters[0].center 0 0.8; emitters[0].direction 1 0; emitters[0].size 0.2; "
+                     "emitters[0].speed 1");
     WeirWorld world = world_of(scene);
     uint32_t whole = 46 * 26 - 40 * 20;
     assert_int_equal(world.solids[0].count, whole - 3 * 4);
