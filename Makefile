@@ -29,7 +29,7 @@ validate: ## run the published cases, compare with their references, write build
 	@tools/build.sh native
 	@tools/validate.sh $(RESOLUTION)
 
-docs: ## write docs/parameters.md and docs/scene.schema.json anew from the parameter list
+docs: ## write docs/parameters.md, scene_keys.md and scene.schema.json anew from the lists in the core
 	@tools/setup.sh native
 	@tools/build.sh native
 	@tools/docs.sh

@@ -6,10 +6,11 @@
 
 #include <string.h>
 
+#include "core/scene_keys.h"
 #include "weir/weir.h"
 
 typedef struct ParamsOptions {
-    bool markdown, schema, json;
+    bool markdown, keys, schema, json;
 } ParamsOptions;
 
 static const char *kind_name(WeirParameterKind kind)
@@ -84,6 +85,81 @@ static void print_markdown(void)
     }
 }
 
+// ---- Keys of a scene: docs/scene_keys.md ----
+
+static const char *key_type(const WeirSceneKey *key, char *text, size_t size)
+{
+    static const char *const names[] = {
+        [WEIR_KEY_NUMBER] = "number",
+        [WEIR_KEY_WHOLE] = "whole number",
+        [WEIR_KEY_VECTOR] = "`[x, y]` or `[x, y, z]`",
+        [WEIR_KEY_SPIN] = "number; `[x, y, z]` in 3D",
+        [WEIR_KEY_BOOLEAN] = "`true` or `false`",
+        [WEIR_KEY_NAME] = "text",
+        [WEIR_KEY_CHOICE] = "",
+        [WEIR_KEY_AXES] = "letters of axes, `\"xy\"`",
+        [WEIR_KEY_SIDES] = "sides, `\"+y -x\"`",
+        [WEIR_KEY_POINTS] = "list of `[x, y]`",
+        [WEIR_KEY_VERTICES] = "list of `[x, y, z]`",
+        [WEIR_KEY_TRIANGLES] = "list of `[a, b, c]`",
+        [WEIR_KEY_ROWS] = "list of rows",
+        [WEIR_KEY_FILE] = "file name",
+        [WEIR_KEY_OBJECT] = "object",
+    };
+    if (key->kind != WEIR_KEY_CHOICE) return names[key->kind];
+    size_t used = 0;
+    for (const char *name = key->choices; *name && used + 2 < size; ++name) {
+        const char one[2] = {*name, '\0'};
+        int written = snprintf(text + used, size - used, "%s", *name == '|' ? ", " : one);
+        used += (size_t)written;
+    }
+    return text;
+}
+
+static void print_keys_of(WeirOwner owner, const char *title, const char *help)
+{
+    printf("\n## `%s`\n\n%s%s| key | value | allowed | what it is |\n|---|---|---|---|\n", title, help,
+           *help ? "\n\n" : "");
+    for (size_t k = 0; k < weir_scene_key_count; ++k) {
+        const WeirSceneKey *key = &weir_scene_keys[k];
+        char type[128], range[64] = "";
+        if (key->owner != owner) continue;
+        if (key->high > 0.0)
+            snprintf(range, sizeof range, "%s%g to %g", key->above ? "above " : "", key->low, key->high);
+        printf("| `%s` | %s | %s | %s |\n", key->name, key_type(key, type, sizeof type), range, key->help);
+    }
+}
+
+static void print_keys(void)
+{
+    static const struct {
+        WeirOwner owner;
+        const char *title;
+    } objects[] = {{WEIR_OWNER_MOTION, "motion"},
+                   {WEIR_OWNER_BOX, "box"},
+                   {WEIR_OWNER_BALL, "ball"},
+                   {WEIR_OWNER_CYLINDER, "cylinder"},
+                   {WEIR_OWNER_MESH, "mesh"}};
+    printf(
+        "# Keys of scene files\n\n"
+        "Made by `make docs` from `src/core/scene_keys.c`; do not edit. `docs/scene.md` explains them with "
+        "examples.\n"
+        "Beside these a scene has `version` (1), `title`, `method` (mueller or wcsph), `dimension` (2; wcsph "
+        "also 3) "
+        "and\n`parameters` (`docs/parameters.md`).\n");
+    print_keys_of(WEIR_OWNER_DOMAIN, "domain",
+                  "The box that holds the fluid; from -1 to 1 along each axis if not given.");
+    for (int k = 0; k < WEIR_SCENE_LISTS; ++k) {
+        char title[64], help[400];
+        const WeirSceneList *list = &weir_scene_lists[k];
+        snprintf(title, sizeof title, "%s[]", list->name);
+        snprintf(help, sizeof help, "%s At most %u.", list->help, list->most);
+        print_keys_of(list->owner, title, help);
+    }
+    for (size_t k = 0; k < sizeof objects / sizeof objects[0]; ++k)
+        print_keys_of(objects[k].owner, objects[k].title, "");
+}
+
 static bool print_json(void)
 {
     json_t *list = json_array();
@@ -108,13 +184,15 @@ static int params_command(int argument_count, char **arguments)
                             &exit_status)) {
         return exit_status;
     }
-    if (options.markdown + options.schema + options.json > 1) {
-        fprintf(stderr, "weir params: --markdown, --schema and --json: must be one of them\n");
+    if (options.markdown + options.keys + options.schema + options.json > 1) {
+        fprintf(stderr, "weir params: --markdown, --keys, --schema and --json: must be one of them\n");
         return WEIR_EXIT_INPUT;
     }
     bool printed = true;
     if (options.markdown) {
         print_markdown();
+    } else if (options.keys) {
+        print_keys();
     } else if (options.schema) {
         printed = weir_json_print(weir_scene_schema(), stdout);
     } else if (options.json) {
@@ -128,13 +206,14 @@ static int params_command(int argument_count, char **arguments)
 #define FIELD(field) offsetof(ParamsOptions, field)
 static const WeirOption params_options[] = {
     {"--markdown", WEIR_OPTION_FLAG, NULL, NULL, FIELD(markdown), 0, 0, "as docs/parameters.md"},
+    {"--keys", WEIR_OPTION_FLAG, NULL, NULL, FIELD(keys), 0, 0, "keys of scene files, as docs/scene_keys.md"},
     {"--schema", WEIR_OPTION_FLAG, NULL, NULL, FIELD(schema), 0, 0, "JSON Schema of scene files"},
     {"--json", WEIR_OPTION_FLAG, NULL, NULL, FIELD(json), 0, 0, "as JSON"},
 };
 
 const WeirCommand weir_params_command = {
     .name = "params",
-    .synopsis = "[--markdown | --schema | --json]",
+    .synopsis = "[--markdown | --keys | --schema | --json]",
     .summary = "lists the parameters with units, defaults and ranges",
     .notes = "",
     .options = params_options,

@@ -226,8 +226,11 @@ static void make_sides(WeirBuild *build, const WeirNear *taken)
 
 static WeirStatus no_particle(WeirBuild *build, const char *list, uint32_t n)
 {
-    return weir_fail(&build->scene->error, WEIR_ERROR_INPUT,
-                     "%s[%u]: has no particle: it lies outside the domain or inside other walls", list, n);
+    return weir_fail(
+        &build->scene->error, WEIR_ERROR_INPUT,
+        "%s[%u]: has no particle: it lies outside the domain or inside other walls, or is thinner than "
+        "parameters.particle_spacing = %g m",
+        list, n, build->spacing);
 }
 
 static WeirStatus make_walls(WeirBuild *build, WeirPoints *points, WeirNear *taken)
@@ -251,6 +254,8 @@ static WeirStatus make_bodies(WeirBuild *build)
         WeirSolidJob job = start_job(build, &build->bodies[n], &scene->body[n], true);
         run_job(&job);
         WeirStatus status = check_body(build, n, &job.near.points);
+        if (!status && !job.near.points.failed && job.near.points.count == 0)
+            status = no_particle(build, "bodies", n);
         append(build, &job.near.points, describe(build, &scene->body[n], true));
         weir_near_end(&job.near);
         if (status) return status;

@@ -62,7 +62,8 @@ class Lists(WeirTest):
 
 class Documents(WeirTest):
     def test_generated_documents_are_current(self):
-        for option, name in (("--markdown", "parameters.md"), ("--schema", "scene.schema.json")):
+        documents = (("--markdown", "parameters.md"), ("--keys", "scene_keys.md"), ("--schema", "scene.schema.json"))
+        for option, name in documents:
             printed, _ = self.weir("params", option)
             self.assertEqual((SOURCE / "docs" / name).read_text(), printed, f"docs/{name} is old: run make docs")
 
@@ -89,6 +90,9 @@ class Schema(WeirTest):
         cube_2d = {"min": [-0.5, -0.5], "max": [0.5, 0.5]}
         box_3d = {"min": [-0.5, -0.5, -0.5], "max": [0, 0, 0]}
         water = {"particle_spacing": 0.05}
+        wall = {"min": [0.2, 0.2], "max": [0.4, 0.4]}
+        rows = [[0, 0, 0, 0], [1, 0.1, 0, 0.2]]
+        tap = {"center": [0.2, 0.2], "direction": [0, -1], "size": 0.1, "speed": 1}
         good = [
             scene_with(),
             scene_with(title=None, version=None, dimension=None, method=None),
@@ -96,6 +100,11 @@ class Schema(WeirTest):
             scene_with(parameters=parameters(gravity=[0, 0, 0], search="all_pairs", kernels="tutorial")),
             scene_with(parameters=parameters(restitution=1)),
             scene_with(method="wcsph", parameters=water),
+            scene_with(method="wcsph", parameters=water, walls=[{"name": "a", "ball": ball, "no_slip": False}]),
+            scene_with(method="wcsph", parameters=water, walls=[{"box": wall, "motion": {"rows": rows}}]),
+            scene_with(method="wcsph", parameters=water, bodies=[{"box": wall, "density": 500, "fixed": "x"}]),
+            scene_with(method="wcsph", parameters=water, emitters=[tap], drains=[wall]),
+            scene_with(method="wcsph", parameters=water, probes=[{"kind": "height", "position": [0, 0]}]),
             scene_with(method="wcsph", parameters=water, domain=dict(cube_2d, periodic="x", open="+y", free_slip=True)),
             scene_with(method="wcsph", dimension=3, parameters=water, domain=cube, fluid=[{"box": box_3d}]),
         ]
@@ -130,6 +139,13 @@ class Schema(WeirTest):
             scene_with(fluid=[{"ball": {"center": [0, 0, 0], "radius": 0.2}}]),
             scene_with(fluid=[{"box": dict(box, mid=[0, 0])}]),
             scene_with(fluid=[{"box": box, "velocity": 1}]),
+            scene_with(method="wcsph", walls=[{"box": wall, "ball": ball}]),
+            scene_with(method="wcsph", walls=[{"box": wall, "motion": {"rows": [[0, 0, 0]]}}]),
+            scene_with(method="wcsph", bodies=[{"box": wall, "density": 500, "fixed": "z"}]),
+            scene_with(method="wcsph", emitters=[dict(tap, capacity=0.5)]),
+            scene_with(method="wcsph", emitters=[dict(tap, center=None)]),
+            scene_with(method="wcsph", drains=[{"min": [0, 0]}]),
+            scene_with(method="wcsph", probes=[{"kind": "heat"}]),
             scene_with(method="wcsph", domain={"periodic": "z"}),
             scene_with(method="wcsph", domain={"open": "y"}),
             scene_with(method="wcsph", domain={"free_slip": "yes"}),
@@ -141,8 +157,6 @@ class Schema(WeirTest):
         for document in good:
             with self.subTest(good=document):
                 self.assertEqual(list(self.validator.iter_errors(document)), [])
-                if document.get("method") == "wcsph":
-                    continue  # tests/core/test_world.c takes them
                 self.weir("run", self.scene_file(document), "--steps", 0, "--backend", "cpu", "--quiet")
         for document in bad:
             with self.subTest(bad=document):

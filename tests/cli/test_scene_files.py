@@ -1,9 +1,12 @@
 """Files that a scene names: tables of motion and meshes, found beside the scene, with messages that name file and line."""
 
 import json
+import re
 import unittest
 
-from weir_process import WeirTest
+import jsonschema
+
+from weir_process import SOURCE, WeirTest
 
 CORNERS = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
 CUBE = [
@@ -45,6 +48,17 @@ def flap(motion):
         "fluid": [{"box": {"min": [0.2, 0], "max": [2, 0.4]}}],
         "walls": [{"name": "piston", "box": {"min": [0, 0], "max": [0.2, 0.8]}, "motion": motion}],
     }
+
+
+class Manual(WeirTest):
+    def test_its_examples_run(self):
+        examples = re.findall(r"```json\n(.*?)```", (SOURCE / "docs/scene.md").read_text(), re.DOTALL)
+        schema = json.loads((SOURCE / "docs/scene.schema.json").read_text())
+        self.assertGreater(len(examples), 4)
+        for example in examples:
+            with self.subTest(example=example[:80]):
+                jsonschema.validate(json.loads(example), schema)
+                self.weir("run", self.scene_file(example), "--steps", 1, "--backend", "cpu", "--quiet")
 
 
 class Meshes(WeirTest):

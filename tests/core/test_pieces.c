@@ -173,6 +173,10 @@ static void pieces_that_cannot_be_are_refused(void **state)
          "0.5; "
          "walls[0].box.max 1.5 0.7",
          {"bodies[0]", "reaches into walls[0]"}},
+        {2,
+         "bodies[0].density 500; bodies[0].polygon[0] 1 0.6; bodies[0].polygon[1] 1.2 0.6; "
+         "bodies[0].polygon[2] 1.1 0.62",
+         {"bodies[0]", "no particle", "thinner", "0.05"}},
         {2, "bodies[0].density 0", {"bodies[0].density", "0.001"}},
         {2, "bodies[0].fixed xz", {"bodies[0].fixed", "xz", "axes"}},
         {2, "bodies[0].fixed xx", {"bodies[0].fixed", "xx"}},
