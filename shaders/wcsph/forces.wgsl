@@ -88,7 +88,7 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                 var along = slope * pressure;
                 sums.gradient += slope * offset;
                 if HAS_SOLIDS && fluid == solid {
-                    if LAMINAR {
+                    if FRICTION {
                         sums.friction += (slope * stick * sticks(group)) * relative;
                     }
                     let r = max(sqrt(r_squared), barrier_range / 3.0);
@@ -121,7 +121,10 @@ fn acceleration_of(sums: Sums, density: f32, own_pressure: f32, inside: bool) ->
         sum += select(constants.viscosity_factor, constants.artificial_factor, inside) * sums.viscous;
     }
     if LAMINAR {
-        sum += (2.0 * parameters.viscosity) * (sums.friction + select(0.0, 1.0, inside) * sums.laminar);
+        sum += select(0.0, constants.laminar_factor, inside) * sums.laminar;
+    }
+    if FRICTION {
+        sum += (2.0 * parameters.viscosity) * sums.friction;
     }
     return scale * sum + pressure_scale(density) * (sums.pressure + own_pressure * sums.gradient);
 }

@@ -110,12 +110,13 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->search_radius = (float)support;
     constants->speed_limit =
         2.0f * parameters->sound_speed; // spray may pass it for a moment, a sound flow not by far
-    // Artificial viscosity makes up only for what the fluid's own viscosity lacks (docs/wcsph.md).
+    // The larger of laminar and artificial viscosity acts (docs/wcsph.md).
     double length = weir_smoothing_length(kernel, support) * parameters->sound_speed;
     double artificial = parameters->rest_density * parameters->artificial_viscosity * length;
     double laminar = 2.0 * (dimension + 2.0) * parameters->viscosity;
     constants->viscosity_factor = (float)fmax(artificial, laminar);
-    constants->artificial_factor = (float)fmax(artificial - laminar, 0.0);
+    constants->artificial_factor = artificial > laminar ? (float)artificial : 0.0f;
+    constants->laminar_factor = artificial > laminar ? 0.0f : 2.0f * parameters->viscosity;
     for (int axis = 0; axis < (int)dimension; ++axis) {
         for (int side = 0; side < 2; ++side)
             if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);

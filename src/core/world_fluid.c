@@ -6,15 +6,18 @@
 #include <math.h>
 #include <string.h>
 
-// Sites of one piece's bounding box. Box: in the middle of squares (cubes) of one spacing. Ball: the same around
-// its centre.
+// Sites of one piece's bounding box. Box: in the middle of squares (cubes) of one spacing; for wcsph stretched to fit a
+// whole number of them, so that the fluid is as far from the walls at both ends. Ball: the same around its centre.
 typedef struct Lattice {
     double origin[3]; // first site
+    double pitch[3];
     uint64_t sites[3];
 } Lattice;
 
-static Lattice fluid_lattice(const WeirFluid *fluid, uint32_t dimension, double spacing)
+static Lattice fluid_lattice(const WeirScene *scene, const WeirFluid *fluid)
 {
+    double spacing = scene->parameters.particle_spacing;
+    uint32_t dimension = scene->dimension;
     Lattice lattice = {.sites = {1, 1, 1}};
     double low[3], high[3];
     weir_shape_bounds(&fluid->shape, dimension, low, high);
@@ -23,8 +26,11 @@ static Lattice fluid_lattice(const WeirFluid *fluid, uint32_t dimension, double 
         double size = is_ball ? 2.0 * fluid->shape.radius : high[axis] - low[axis];
         double sites = floor(size / spacing + 0.5);
         lattice.sites[axis] = sites >= 1.0 ? (uint64_t)fmin(sites, 1e9) : 0;
+        bool fits = fabs(size - sites * spacing) < 1e-6 * spacing;
+        bool stretched = scene->method == WEIR_METHOD_WCSPH && !is_ball && !fits && sites >= 1.0;
+        lattice.pitch[axis] = stretched ? size / sites : spacing;
         // A ball's lattice is centred; a box's starts half a spacing from its lowest corner.
-        double margin = is_ball ? 0.5 * (size - (sites - 1.0) * spacing) : 0.5 * spacing;
+        double margin = is_ball ? 0.5 * (size - (sites - 1.0) * spacing) : 0.5 * lattice.pitch[axis];
         lattice.origin[axis] = low[axis] + margin;
     }
     return lattice;
@@ -44,9 +50,9 @@ static bool is_inside(const WeirSurface *surface, const double *point)
 
 double weir_fluid_sites(const WeirScene *scene)
 {
-    double spacing = scene->parameters.particle_spacing, total = 0.0;
+    double total = 0.0;
     for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        Lattice lattice = fluid_lattice(&scene->fluid[n], scene->dimension, spacing);
+        Lattice lattice = fluid_lattice(scene, &scene->fluid[n]);
         double share = scene->fluid[n].shape.kind != WEIR_SHAPE_BALL ? 1.0
                        : scene->dimension == 3                       ? 0.52
                                                                      : 0.78;
@@ -70,14 +76,14 @@ static void fill_disc(WeirBuild *build, const WeirSurface *surface)
 
 static void fill_lattice(WeirBuild *build, const WeirFluid *fluid, const WeirSurface *surface)
 {
-    Lattice lattice = fluid_lattice(fluid, build->dimension, build->spacing);
+    Lattice lattice = fluid_lattice(build->scene, fluid);
     uint64_t k[3];
     for (k[2] = 0; k[2] < lattice.sites[2]; ++k[2]) {
         for (k[1] = 0; k[1] < lattice.sites[1]; ++k[1]) {
             for (k[0] = 0; k[0] < lattice.sites[0]; ++k[0]) {
                 double point[3] = {0.0};
                 for (uint32_t axis = 0; axis < build->dimension; ++axis)
-                    point[axis] = lattice.origin[axis] + (double)k[axis] * build->spacing;
+                    point[axis] = lattice.origin[axis] + (double)k[axis] * lattice.pitch[axis];
                 // Rounding must not cost a box its outermost sites.
                 if (fluid->shape.kind == WEIR_SHAPE_BOX || is_inside(surface, point))
                     weir_points_add(&build->fluid, point);

@@ -248,7 +248,8 @@ static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums
     if (tension && inside && own < 0.0f) own = -own;
     float common = constants->particle_mass * data->inverse_density[i] * constants->gradient_factor;
     float pressure = -common * constants->quantum;
-    float friction = common * 2.0f * data->parameters->viscosity, laminar = inside ? friction : 0.0f;
+    float friction = common * 2.0f * data->parameters->viscosity,
+          laminar = inside ? common * constants->laminar_factor : 0.0f;
     float viscous = common * (inside ? constants->artificial_factor : constants->viscosity_factor);
     float sound = constants->sound_speed,
           barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
