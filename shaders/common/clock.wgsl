@@ -66,12 +66,19 @@ fn choose_step() {
     control.drift_half = select(0.0, 0.5 * control.dt, control.running == 1u);
 }
 
+// Whether the step under way moves anything.
+fn is_stepping() -> bool {
+    return control.running == 1u && control.bad_step == 0xffffffffu;
+}
+
 // Between forces and continuity: the step gets its number and time, and the next one its length.
 fn advance_clock() {
-    control.finishing = control.running;
-    if control.running == 0u {
+    if !is_stepping() {
+        control.running = 0u;
+        control.finishing = 0u;
         return;
     }
+    control.finishing = 1u;
     let end = add_ticks(control.time, ticks_of(control.dt));
     // A step that was shortened to end there ends there exactly.
     let left = seconds_of(subtract_ticks(control.until, control.time));

@@ -17,7 +17,7 @@ fn is_fluid(group: u32) -> bool {
 struct Control {
     until: vec2u,           // written by the host for a batch of steps: no step passes it;
     steps_left: u32,        // and how many steps it may take
-    running: u32,           // 1: the step under way moves particles up to `solids`
+    running: u32,           // 1: the step under way may sort and sum
     finishing: u32,         // 1: and after it
     steps: u32,
     time: vec2u,            // at the end of the last step
@@ -45,7 +45,7 @@ struct Control {
 struct SharedControl {
     until: vec2u,
     steps_left: u32,
-    running: atomic<u32>,
+    running: u32,
     finishing: u32,
     steps: u32,
     time: vec2u,

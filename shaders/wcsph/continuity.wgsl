@@ -13,6 +13,9 @@
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
+// The workgroup's largest density error, as bits.
+var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero it
+
 // `shift_rate`: what shifting adds, drho/dt / rho.
 fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
     let support = f32(1u << constants.coordinate_bits);
@@ -55,8 +58,7 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
     atomicAdd(&control.bad_particles, 1u);
     atomicMin(&control.bad_step, control.steps);
     atomicMin(&control.bad_id, sorted_id[i]);
-    // What the sort left, half a step ago, is the last good state: nothing may run over it.
-    atomicStore(&control.running, 0u);
+    // Count sees it: what the sort left, half a step ago, is the last good state, and nothing may run over it.
 }
 
 // The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
@@ -86,8 +88,8 @@ fn finish_fluid(i: u32, own: vec4i) {
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w += last_half * rate;
     let error = bitcast<u32>(abs(own_motion.w / parameters.rest_density - 1.0));
-    if error > atomicLoad(&control.error_bits) {
-        atomicMax(&control.error_bits, error);
+    if error > atomicLoad(&error_most) {
+        atomicMax(&error_most, error);
     }
     var way = last_half * velocity;
     if SHIFTING && u32(own.w) == GROUP_FLUID {
@@ -117,13 +119,7 @@ fn finish_fluid(i: u32, own: vec4i) {
     motion[i] = own_motion;
 }
 
-@compute @workgroup_size(WORKGROUP_SIZE)
-fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, workgroups, local);
-    if i >= constants.particle_count || control.finishing == 0u {
-        return;
-    }
+fn finish(i: u32) {
     let own = sorted_coordinate[i];
     let group = u32(own.w);
     id[i] = sorted_id[i];
@@ -142,4 +138,21 @@ fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         own_motion += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);
     }
     motion[i] = own_motion;
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+              @builtin(local_invocation_index) local: u32) {
+    if local == 0u {
+        atomicStore(&error_most, 0u);
+    }
+    workgroupBarrier();
+    let i = thread_index(workgroup, workgroups, local);
+    if i < constants.particle_count && control.finishing == 1u {
+        finish(i);
+    }
+    workgroupBarrier();
+    if local == 0u && atomicLoad(&error_most) > 0u {
+        atomicMax(&control.error_bits, atomicLoad(&error_most));
+    }
 }

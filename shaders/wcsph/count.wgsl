@@ -21,7 +21,8 @@ fn count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
-    let counts = i < constants.particle_count && control.running == 1u;
+    let healthy = control.bad_step == 0xffffffffu || control.restored == 1u;
+    let counts = i < constants.particle_count && control.running == 1u && healthy;
     var is_empty = false;
     var own = 0u;
     var rank = 0u;

@@ -217,25 +217,43 @@ fn wants_force(group: u32) -> bool {
     return FORCES_READ || (FREE_SOLIDS && solid_table[group - GROUP_SOLID].kind == SOLID_FREE);
 }
 
-// Most threads see at once that theirs is not the largest. What is not finite is a matter for health.
+// The workgroup's largest values, as bits: one atomic operation per workgroup on the device's memory, not one per
+// particle on the same place. What is not finite is a matter for health.
+var<workgroup> speed_most: atomic<u32>; // wgpu-native does not zero them
+var<workgroup> acceleration_most: atomic<u32>;
+var<workgroup> error_most: atomic<u32>;
+
 fn take_speed(square: f32) {
     let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&control.speed_bits) && is_finite(square) {
-        atomicMax(&control.speed_bits, bits);
+    if bits > atomicLoad(&speed_most) && is_finite(square) {
+        atomicMax(&speed_most, bits);
     }
 }
 
 fn take_acceleration(square: f32) {
     let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&control.acceleration_bits) && is_finite(square) {
-        atomicMax(&control.acceleration_bits, bits);
+    if bits > atomicLoad(&acceleration_most) && is_finite(square) {
+        atomicMax(&acceleration_most, bits);
     }
 }
 
 fn take_density(density: f32) {
-    let bits = bitcast<u32>(abs(density / parameters.rest_density - 1.0));
-    if bits > atomicLoad(&control.error_bits) {
-        atomicMax(&control.error_bits, bits);
+    atomicMax(&error_most, bitcast<u32>(abs(density / parameters.rest_density - 1.0)));
+}
+
+fn clear_maxima() {
+    atomicStore(&speed_most, 0u);
+    atomicStore(&acceleration_most, 0u);
+    if FORCES_READ {
+        atomicStore(&error_most, 0u);
+    }
+}
+
+fn publish_maxima() {
+    atomicMax(&control.speed_bits, atomicLoad(&speed_most));
+    atomicMax(&control.acceleration_bits, atomicLoad(&acceleration_most));
+    if FORCES_READ {
+        atomicMax(&control.error_bits, atomicLoad(&error_most));
     }
 }
 
@@ -278,16 +296,28 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
           @builtin(local_invocation_index) local: u32) {
-    if atomicLoad(&control.running) == 0u {
+    // Where count counted nothing, there is nothing to do.
+    if cell_start[constants.cell_count + 1u] == 0u {
         return;
     }
+    if local == 0u {
+        clear_maxima();
+    }
+    workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
     for (var cell = i; cell <= constants.cell_count; cell += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
         cell_link[cell] = 0u;
     }
-    if i >= constants.particle_count {
-        return;
+    if i < constants.particle_count {
+        forces_on(i);
     }
+    workgroupBarrier();
+    if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
+        publish_maxima();
+    }
+}
+
+fn forces_on(i: u32) {
     let own = sorted_coordinate[i];
     let own_motion = sorted_motion[i];
     let group = u32(own.w);

@@ -41,7 +41,7 @@ fn solids(@builtin(local_invocation_index) local: u32) {
         atomicStore(&largest, 0u);
     }
     workgroupBarrier();
-    if control.running == 1u {
+    if is_stepping() {
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
             solid_state[SAVED + n] = solid_state[NOW + n];
             solid_state[NEW + n] = kicked_solid(n);

@@ -1,7 +1,7 @@
 // What solid particles see of the fluid near them (Adami, Hu, Adams 2012): pressure, kept as the density that it
 // stands for, and for the laminar viscosity the mirrored velocity.
 //
-// in:  sorted_coordinate, sorted_motion (of the fluid), sorted_id, cell_start, solid_state, local_place, control
+// in:  sorted_coordinate, sorted_motion (of the fluid), sorted_id, cell_start, solid_state, local_place
 // out: sorted_motion (of solids)
 @group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
 @group(0) @binding(BINDING_sorted_motion) var<storage, read_write> sorted_motion: array<vec4f>;
@@ -9,7 +9,6 @@
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
-@group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
 // Velocity and acceleration of solid `n` at a particle: a + alpha x r + w x (w x r).
 struct WallMotion {
@@ -34,7 +33,7 @@ fn wall_motion(n: u32, own_id: u32) -> WallMotion {
 fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, workgroups, local);
-    if i >= constants.particle_count || control.running == 0u {
+    if i >= constants.particle_count || cell_start[constants.cell_count + 1u] == 0u {
         return;
     }
     let own = sorted_coordinate[i];

@@ -81,7 +81,7 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                             WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, NULL,
                           BIT(sorted_coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(solid_state) |
-                              BIT(local_place) | BIT(control),
+                              BIT(local_place),
                           BIT(sorted_motion), WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", NULL, FORCES_READS, FORCES_WRITES,
                            WEIR_ITEMS_PARTICLES},
