@@ -1,4 +1,4 @@
-// Builds the two pages into dist/, with the engine (weir.wasm), the scenes and a generated list of them beside them.
+// Builds the pages into dist/, with the engine (weir.wasm), the scenes and a generated list of them beside them.
 import { createReadStream, existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -80,6 +80,6 @@ export default defineConfig({
   worker: { format: 'es' },
   build: {
     target: 'es2022',
-    rollupOptions: { input: [resolve(root, 'index.html'), resolve(root, 'compare.html')] },
+    rollupOptions: { input: [resolve(root, 'index.html'), resolve(root, 'compare.html'), resolve(root, 'validation.html')] },
   },
 });

@@ -400,8 +400,8 @@ export class App implements PanelHost {
     camera.fit(insets);
     if (camera.dimension === 3) return;
     // A wide domain goes below the heading's words, a tall one beside them.
-    const keys = element('keys');
-    const heading = element('heading').offsetTop + keys.offsetTop + keys.offsetHeight + 10;
+    const last = element('links');
+    const heading = element('heading').offsetTop + last.offsetTop + last.offsetHeight + 10;
     const leftEdge = camera.toClientX(camera.domain.min[0] ?? 0);
     if (!narrow && leftEdge < headingWidth) camera.fit({ ...insets, top: heading });
   }

@@ -14,6 +14,7 @@ export type Chart = {
   title: string;
   value?: string; // at the right of the title
   xLabel?: string; // under the axis
+  yLabel?: string; // under the title: the curves' names then have a line of their own
   curves: Curve[];
   xRange?: [number, number]; // else what the curves have
 };
@@ -67,7 +68,8 @@ export function drawChart(canvas: HTMLCanvasElement, chart: Chart): void {
   const prepared = prepareCanvas(canvas);
   if (!prepared) return;
   const { context, width, height } = prepared;
-  const box = { left: 1, top: 20, width: width - 2, height: height - (chart.xLabel ? 38 : 24) };
+  const top = chart.yLabel ? 50 : 20;
+  const box = { left: 1, top, width: width - 2, height: height - top - (chart.xLabel ? 18 : 4) };
   const found = rangeOf(chart.curves, (curve) => curve.x);
   const x = chart.xRange ? { low: chart.xRange[0], high: chart.xRange[1] } : found;
   const y = niceRange(rangeOf(chart.curves, (curve) => curve.y));
@@ -100,10 +102,17 @@ function header(context: CanvasRenderingContext2D, chart: Chart, width: number):
   context.fillStyle = titleColor;
   context.fillText(chart.title, 0, 11, width * 0.7);
   let at = Math.min(context.measureText(chart.title).width, width * 0.7) + 10;
+  let y = 11;
+  if (chart.yLabel) {
+    context.fillStyle = textColor;
+    context.fillText(chart.yLabel, 0, 43);
+    at = 0;
+    y = 27;
+  }
   for (const { label, color } of chart.curves) {
     if (!label) continue;
     context.fillStyle = color;
-    context.fillText(label, at, 11);
+    context.fillText(label, at, y);
     at += context.measureText(label).width + 8;
   }
   if (!chart.value) return;

@@ -17,7 +17,7 @@ export type CpuFrame = {
 };
 
 // The looks of walls and bodies by number, as PointsFrame has them.
-function looksOf(scene: Scene, document: SceneDocument): number[] {
+export function looksOf(scene: Scene, document: SceneDocument): number[] {
   const most = 1 + (document.walls?.length ?? 0) + (document.bodies?.length ?? 0);
   let bodies = 0;
   return Array.from({ length: most }, (_, solid) => {
@@ -25,6 +25,24 @@ function looksOf(scene: Scene, document: SceneDocument): number[] {
     if (look === Look.hidden) return -1;
     return look === Look.wall ? 1 : 2 + bodies++;
   });
+}
+
+// Fills `values` as PointsFrame says, if they have the right length.
+export function fillPoints(sim: Sim, colorBy: ColorBy, looksOfSolids: number[], values: Float32Array): void {
+  const { particleCount: count, dimension } = sim;
+  if (values.length !== floatsPerParticle(dimension) * count) return;
+  const position = sim.read(Field.position);
+  if (position) values.set(position, 0);
+  const velocity = sim.read(Field.velocity);
+  if (velocity) values.set(velocity, dimension * count);
+  const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
+  if (scalar) values.set(scalar, 2 * dimension * count);
+  const looks = values.subarray((2 * dimension + 1) * count);
+  const group = sim.read(Field.group);
+  for (let i = 0; group && i < count; i++) {
+    const number = group[i] as number;
+    looks[i] = number <= 0 ? number : (looksOfSolids[number - 1] ?? 1);
+  }
 }
 
 export class CpuRunner {
@@ -101,7 +119,7 @@ export class CpuRunner {
     frame.steps = sim.advance(wallSeconds);
     const end = performance.now();
     this.#pace.measured(frame.steps, end - begin, budgetMs);
-    this.#fill(sim, colorBy, values);
+    fillPoints(sim, colorBy, this.#looks, values);
     frame.samples = this.#probes?.update() ?? [];
     frame.stepCount = sim.stepCount + this.#stepOffset;
     frame.time = sim.time + this.#timeOffset;
@@ -112,24 +130,6 @@ export class CpuRunner {
       this.#diagnosed = end;
     }
     return frame;
-  }
-
-  #fill(sim: Sim, colorBy: ColorBy, values: Float32Array): void {
-    const { particleCount: count, dimension } = sim;
-    if (values.length !== floatsPerParticle(dimension) * count) return;
-    const position = sim.read(Field.position);
-    if (position) values.set(position, 0);
-    const velocity = sim.read(Field.velocity);
-    if (velocity) values.set(velocity, dimension * count);
-    const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
-    if (scalar) values.set(scalar, 2 * dimension * count);
-    const looks = values.subarray((2 * dimension + 1) * count);
-    const group = this.#wcsph ? sim.read(Field.group) : null;
-    if (!group) return void looks.fill(0);
-    for (let i = 0; i < count; i++) {
-      const number = group[i] as number;
-      looks[i] = number <= 0 ? number : (this.#looks[number - 1] ?? 1);
-    }
   }
 
   step(count: number): void {

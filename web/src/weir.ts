@@ -98,10 +98,11 @@ const LONGEST_PATH = 255; // as in the native loader: no path of a scene is as l
 export class Weir {
   readonly version: string;
   readonly parameters: ParameterInfo[];
+  readonly context: Context; // for what is built on it: validation_api.ts
   readonly #context: Context;
 
   private constructor(context: Context) {
-    this.#context = context;
+    this.#context = this.context = context;
     context.weir = this;
     this.version = context.memory.text(context.c.weir_web_version());
     this.parameters = readParameters(context);

@@ -31,6 +31,11 @@ type Name =
   | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameter'
   | 'weir_web_renderer_create' | 'weir_web_renderer_destroy' | 'weir_web_renderer_draw'
   | 'weir_web_scene_domain' | 'weir_web_scene_fluid_count' | 'weir_web_sim_clock' | 'weir_web_view_matrix' | 'weir_web_view_ray'
+  | 'weir_case_count' | 'weir_web_case_text' | 'weir_validation_create' | 'weir_validation_destroy'
+  | 'weir_validation_error' | 'weir_validation_run_count' | 'weir_validation_prepare' | 'weir_validation_begin'
+  | 'weir_validation_advance' | 'weir_validation_run_is_done' | 'weir_validation_abandon'
+  | 'weir_validation_progress' | 'weir_validation_judge' | 'weir_validation_gate_count'
+  | 'weir_validation_curve_count' | 'weir_web_run_text' | 'weir_web_run_numbers' | 'weir_web_gate' | 'weir_web_curve'
   | 'weir_probes_create' | 'weir_probes_destroy' | 'weir_probes_count' | 'weir_probes_update' | 'weir_probes_clear'
   | 'weir_web_probe_info' | 'weir_web_probe_series' | 'weir_scene_look' | 'weir_sim_fluid_slots' | 'weir_sim_run_until' | 'weir_web_sim_advance' | 'weir_web_sim_create' | 'weir_web_sim_diagnose'
   | 'weir_web_sim_pass_times' | 'weir_web_sim_set_tool' | 'weir_web_sim_step_count' | 'weir_web_version';

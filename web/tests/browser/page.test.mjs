@@ -350,6 +350,26 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    test('validation.html measures a case and judges it', async () => {
+      const tab = await Tab.open(browser, `${server.url}validation.html?case=couette&run=1`);
+      await tab.until('a curve that grows', () => window.validation?.curves.some((curve) => !curve.isReference && curve.x.length > 5));
+      await tab.until('frames', () => window.validation.frames > 2);
+      assert.ok(await tab.evaluate(() => document.querySelectorAll('#plots canvas').length) >= 1);
+      await tab.until('the verdict', () => window.validation.passed !== null, null);
+      const { gates, curves } = await tab.evaluate(() => window.validation);
+      assert.ok(gates.length >= 5 && gates.every((gate) => Number.isFinite(gate.value)), JSON.stringify(gates));
+      assert.ok(curves.some((curve) => curve.isReference && curve.x.length > 5));
+      const rows = await tab.evaluate(() => document.querySelectorAll('#verdict tr.passed, #verdict tr.failed').length);
+      assert.equal(rows, gates.filter((gate) => gate.kind !== 3).length);
+      // Another case, stopped.
+      await tab.evaluate(() => document.querySelector('[data-case="taylor_green"]').click());
+      await tab.page.click('#run');
+      await tab.until('frames', () => window.validation.frames > 1);
+      await tab.page.click('#stop');
+      assert.equal(await tab.evaluate(() => window.validation.running), false);
+      await tab.close();
+    });
+
     if (kind.name !== 'chromium') return;
     test('picture of the page', async () => {
       const tab = await open('backend=cpu', { size: { width: 1600, height: 900, deviceScaleFactor: 1 } });
