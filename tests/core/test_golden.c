@@ -30,7 +30,7 @@ static WeirScene *load(const char *name)
 static uint32_t steps_for(uint32_t particles)
 {
     uint32_t steps = 500000 / particles;
-    return steps < 15 ? 15 : steps > 60 ? 60 : steps;
+    return steps < 3 ? 3 : steps > 60 ? 60 : steps;
 }
 
 static void hash_text(WeirScene *scene, uint32_t threads, uint32_t steps, char text[24])

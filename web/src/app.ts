@@ -266,6 +266,7 @@ export class App implements PanelHost {
     // In 3D a little more than half a spacing, so that the surface looks closed.
     view.particleRadius = (space ? 0.6 : 0.5) * (scene.parameter('particle_spacing')[0] ?? 0.01);
     document.body.classList.toggle('space', space);
+    this.plot.unit = space ? 'J' : 'J/m';
     chooseRange(view, scene, this.store.document);
     this.#legend.update(this.weir, view);
     element('title').textContent = scene.title;
@@ -395,7 +396,7 @@ export class App implements PanelHost {
   #fit(): void {
     const { camera } = this;
     const narrow = innerWidth < 760;
-    const right = this.#panelShown && !narrow ? panelWidth + 20 : 20;
+    const right = (this.#panelShown || this.plot.visible) && !narrow ? panelWidth + 20 : 20;
     const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 };
     camera.fit(insets);
     if (camera.dimension === 3) return;
@@ -445,6 +446,7 @@ export class App implements PanelHost {
   #showPlots(visible: boolean): void {
     this.plot.show(visible);
     this.probePlots.show(visible);
+    this.#fit();
   }
 
   #zoom(factor: number): void {

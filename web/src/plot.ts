@@ -1,4 +1,5 @@
 // A small live plot: kinetic, potential and total energy, and the density error, over the last 20 seconds.
+import { prepareCanvas } from './chart.ts';
 import { formatNumber, niceCeil } from './format.ts';
 import type { Diagnostics } from './weir.ts';
 
@@ -22,6 +23,7 @@ export class Plot {
   #energyLow = 0;
   #errorTop = 1;
   visible = true;
+  unit = 'J/m'; // of the energies; J in 3D
 
   constructor(canvas: HTMLCanvasElement) {
     this.#canvas = canvas;
@@ -70,20 +72,13 @@ export class Plot {
   #draw(now: number): void {
     const context = this.#context;
     if (!context || this.#count < 2) return;
-    const ratio = devicePixelRatio;
-    const [width, height] = [this.#canvas.clientWidth, this.#canvas.clientHeight];
-    if (width === 0) return;
-    if (this.#canvas.width !== Math.round(width * ratio)) {
-      this.#canvas.width = Math.round(width * ratio);
-      this.#canvas.height = Math.round(height * ratio);
-    }
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
-    context.font = '11px system-ui, sans-serif';
+    const prepared = prepareCanvas(this.#canvas);
+    if (!prepared) return;
+    const { width, height } = prepared;
     this.#range();
     const energy = { left: 0, top: 18, width, height: height - 84 };
     const error = { left: 0, top: height - 46, width, height: 44 };
-    this.#caption(context, 'Energy', `${formatNumber(this.#energyTop)} J/m`, 11, width);
+    this.#caption(context, 'Energy', `${formatNumber(this.#energyTop)} ${this.unit}`, 11, width);
     series.forEach((item, k) => this.#curve(context, k, item.color, now, energy, this.#energyLow, this.#energyTop));
     let x = 52;
     for (const item of series) {
