@@ -43,7 +43,9 @@ static void make_wcsph(WeirScene *scene, WeirBenchCase bench_case, uint32_t coun
     static const double spacing = 0.01;
     static const char *const titles[] = {"block_2d", "block_3d", "dam_2d", "dam_3d"};
     double side = spacing * fmax(1.0, floor((deep ? cbrt(count) : sqrt(count)) + 0.5));
-    double low = dam ? 0.0 : -side, wide = 2.0 * side, high = dam ? 1.5 * side : wide;
+    // So little space around a block that its cells stay fine.
+    double low = dam ? 0.0 : -0.1 * side, wide = dam ? 2.0 * side : 1.1 * side;
+    double high = dam ? 1.5 * side : wide;
     weir_scene_set_string(scene, "title", titles[bench_case - WEIR_BENCH_BLOCK_2D]);
     weir_scene_set_string(scene, "method", "wcsph");
     weir_scene_set_number(scene, "dimension", deep ? 3 : 2);

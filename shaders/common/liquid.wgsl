@@ -45,21 +45,31 @@ fn moved(place: Place, way: Vector) -> Place {
     return wrapped(place + quanta_of(way));
 }
 
-// Way in quanta of a solid's particle, from `place` to where the solid's state has it; across a periodic border the
-// short way. `start` is its place in the solid at the beginning.
+// Coordinate of a place that is `away` metres from the origin, not wrapped.
+fn coordinate_of(away: vec3f) -> Place {
+    let steps = round(vector_of(vec4f(away, 0.0)) * constants.inverse_quantum);
+    return select(Place(0), Place(steps), abs(steps) < Vector(2e9));
+}
+
+// Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the solid
+// at the beginning.
 fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
-    let to = state.position.xyz - constants.origin.xyz + rotate(state.orientation, start);
-    var way = quanta_of(vector_of(vec4f(to, 0.0))) - place;
+    return shortest(coordinate_of(state.position.xyz - constants.origin.xyz + rotate(state.orientation, start)) - place);
+}
+
+// A way in quanta; across a periodic border the short one.
+fn shortest(way: Place) -> Place {
+    var short = way;
     if PERIODIC_X {
-        way.x = short_way(way.x, constants.period_x);
+        short.x = short_way(way.x, constants.period_x);
     }
     if PERIODIC_Y {
-        way.y = short_way(way.y, constants.period_y);
+        short.y = short_way(way.y, constants.period_y);
     }
     if PERIODIC_Z {
-        way = short_way_z(way);
+        short = short_way_z(short);
     }
-    return way;
+    return short;
 }
 
 fn short_way(way: i32, period: u32) -> i32 {

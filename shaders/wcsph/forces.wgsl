@@ -164,13 +164,14 @@ fn shift_of(sums: Sums) -> vec4f {
 }
 
 // Own velocity of a particle of a solid, from where it is.
-fn solid_velocity(group: u32, at: Vector) -> vec3f {
+fn solid_velocity(group: u32, place: Place) -> vec3f {
     let n = group - GROUP_SOLID;
     let surface = solid_table[n].surface_velocity.xyz;
     if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
         return surface;
     }
-    let arm = wide(at) - wide(vector_of(solid_state[NOW + n].position));
+    let center = coordinate_of(solid_state[NOW + n].position.xyz - constants.origin.xyz);
+    let arm = wide(Vector(shortest(place - center)) * constants.quantum);
     return surface + solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
 }
 
@@ -181,7 +182,7 @@ fn contact_force(own: vec4i) -> Vector {
     let mass = constants.particle_mass;
     let c = constants.sound_speed;
     let group = u32(own.w);
-    let velocity = solid_velocity(group, position_of(place_of(own)));
+    let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
     var walk = walk_around(own);
     while next_run(&walk) {
@@ -192,7 +193,7 @@ fn contact_force(own: vec4i) -> Vector {
             let r_squared = dot(offset, offset);
             if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {
                 let r = sqrt(r_squared);
-                let relative = velocity - solid_velocity(u32(other.w), position_of(place_of(other)));
+                let relative = velocity - solid_velocity(u32(other.w), place_of(other));
                 let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
                     - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;
                 force += (max(push, 0.0) / r) * offset;

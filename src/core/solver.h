@@ -57,7 +57,8 @@ typedef struct WeirSolverInterface {
     // Finishes all queued work; WEIR_PENDING where it may not block.
     WeirStatus (*wait)(WeirSolver *solver);
     // Evaluates density, pressure and acceleration of the current state and copies all to the host.
-    // WEIR_PENDING while the copy is under way.
+    // WEIR_PENDING while the copy is under way. wcsph, after a blow-up: the last good state, on the CPU at most 64 steps
+    // old, on the GPU that of the middle of the bad step.
     WeirStatus (*read)(WeirSolver *solver, WeirState *state);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
 } WeirSolverInterface;

@@ -151,6 +151,24 @@ static void body_3d(WeirTestWorld *test)
     body->freedom[2] = 0.0f;
 }
 
+// Two bodies that touch each other across a periodic border, the lower one turning.
+static void border_2d(WeirTestWorld *test)
+{
+    *test = start(2, 0.8, 0.9, 0);
+    CHECK_SCENE(test->scene, weir_scene_set_string(test->scene, "domain.periodic", "x"), WEIR_OK);
+    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.8, 0.25, 0}, 0.05, 0.1);
+    weir_test_world_solid(test, WEIR_SOLID_FIXED, (double[]){0, -0.15, 0}, (double[]){0.8, 0, 0}, NOWHERE);
+    const double low[2][3] = {{0.65, 0.3, 0}, {0.75, 0.47, 0}},
+                 high[2][3] = {{0.95, 0.45, 0}, {0.9, 0.62, 0}};
+    for (int n = 0; n < 2; ++n) {
+        WeirSolid *body = weir_test_world_solid(test, WEIR_SOLID_FREE, low[n], high[n], NOWHERE);
+        weir_test_world_body(test, body, low[n], high[n], 600);
+        body->velocity[0] = 2;
+        body->velocity[1] = n ? -3.0f : 0.0f;
+        body->angular_velocity[2] = n ? 0.0f : 2.0f;
+    }
+}
+
 static void add_tap(WeirTestWorld *test, double x, double y)
 {
     WeirWorld *world = &test->world;
@@ -224,6 +242,7 @@ const WeirTestCase weir_test_cases[] = {
     {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
     {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 50},         {"tap_2d", tap_2d, 100},
     {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},         {"long_2d", long_2d, 60},
+    {"border_2d", border_2d, 60},
 };
 const uint32_t weir_test_case_count = sizeof weir_test_cases / sizeof weir_test_cases[0];
 
