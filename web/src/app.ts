@@ -64,6 +64,7 @@ export class App implements PanelHost {
   #lastFrame = 0;
   #interval = 1000 / 60; // ms between animation frames, averaged
   #plotted: unknown = null;
+  #advice = ''; // as last seen
 
   constructor(weir: Weir, module: WebAssembly.Module, scenes: SceneEntry[], options: AppOptions) {
     this.weir = weir;
@@ -250,6 +251,8 @@ export class App implements PanelHost {
   #started(): void {
     this.#lastGood = this.store.document;
     this.notes.clear('fault');
+    this.notes.clear('advice');
+    this.#advice = '';
     this.plot.clear();
     this.#showScene();
     if (this.engine) this.status.restart(performance.now(), this.engine);
@@ -274,6 +277,13 @@ export class App implements PanelHost {
     this.pointer.setRadius(this.pointer.settings.radius);
     this.#fit();
     this.#warn();
+  }
+
+  // What the simulation itself warns of while it runs: shown once per run.
+  #advise(warning: string): void {
+    if (warning === this.#advice) return;
+    this.#advice = warning;
+    if (warning && warning !== this.store.derived.warning) this.notes.show('advice', 'warning', warning);
   }
 
   #stepIsTooLarge(): boolean {
@@ -366,6 +376,8 @@ export class App implements PanelHost {
 
   restart(): void {
     this.notes.clear('fault');
+    this.notes.clear('advice');
+    this.#advice = '';
     this.plot.clear();
     this.engine?.reset();
   }
@@ -471,6 +483,7 @@ export class App implements PanelHost {
     if (diagnostics && diagnostics !== this.#plotted && !this.paused) this.plot.add(now, diagnostics);
     this.#plotted = diagnostics;
     this.probePlots.update(engine.stats.probes, now);
+    this.#advise(engine.stats.warning);
     this.status.update(now, engine, this.paused);
     if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();
   };

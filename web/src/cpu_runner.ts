@@ -3,7 +3,7 @@ import { diagnoseInterval, type Snapshot, type Tool } from './engine.ts';
 import { Pace } from './pace.ts';
 import { floatsPerParticle } from './points.ts';
 import { ProbeReader, type ProbeInfo, type ProbeSamples } from './probes.ts';
-import type { SceneDocument } from './scene_document.ts';
+import { canResume, type SceneDocument } from './scene_document.ts';
 import { ColorBy, Field, Look, type Clock, type Diagnostics, type Scene, type Sim, type Weir } from './weir.ts';
 
 export type CpuFrame = {
@@ -14,6 +14,7 @@ export type CpuFrame = {
   diagnostics: Diagnostics | null; // a new one now and then
   clock: Clock | null; // wcsph only
   samples: ProbeSamples[]; // new ones of the probes
+  warning: string;
 };
 
 // The looks of walls and bodies by number, as PointsFrame has them.
@@ -52,7 +53,7 @@ export class CpuRunner {
   #timeOffset = 0; // a run that goes on from a snapshot keeps its clock
   #stepOffset = 0;
   #diagnosed = 0;
-  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null, samples: [] };
+  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null, samples: [], warning: '' };
   #probes: ProbeReader | null = null;
   #looks: number[] = [];
   #wcsph = false;
@@ -84,7 +85,7 @@ export class CpuRunner {
     let sim: Sim | null = null;
     try {
       sim = this.#weir.createSim(scene, { maxSteps: this.#pace.maxSteps });
-      if (from && from.positions.length === sim.dimension * sim.particleCount) {
+      if (from && canResume(document) && from.positions.length === sim.dimension * sim.particleCount) {
         sim.setState(from.positions, from.velocities);
         this.#timeOffset = from.time;
         this.#stepOffset = from.steps;
@@ -125,6 +126,7 @@ export class CpuRunner {
     frame.time = sim.time + this.#timeOffset;
     frame.stepMs = this.#pace.stepMs;
     frame.clock = this.#wcsph ? sim.clock() : null;
+    frame.warning = sim.warning;
     if (end - this.#diagnosed > diagnoseInterval(sim.particleCount)) {
       frame.diagnostics = sim.diagnose(false);
       this.#diagnosed = end;

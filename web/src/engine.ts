@@ -29,6 +29,7 @@ export type EngineStats = {
   clock: Clock | null; // wcsph only
   probes: ProbeSeries[]; // of the scene; another list for another run
   memory: number; // bytes; 0: not known
+  warning: string; // the simulation's own advice; '' if none
 };
 
 export type FaultKind =
@@ -59,7 +60,7 @@ export interface Engine {
 export function newStats(): EngineStats {
   return {
     particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, clock: null,
-    probes: [], memory: 0,
+    probes: [], memory: 0, warning: '',
   };
 }
 

@@ -6,7 +6,7 @@ import {
 import type { PickSource } from './pick.ts';
 import { Pace } from './pace.ts';
 import { ProbeReader, ProbeSeries } from './probes.ts';
-import type { SceneDocument } from './scene_document.ts';
+import { canResume, type SceneDocument } from './scene_document.ts';
 import { Field, Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
 const framesInFlight = 2;
@@ -110,7 +110,7 @@ export class GpuEngine implements Engine {
       throw new Error('the engine was closed');
     }
     this.#timeOffset = this.#stepOffset = 0;
-    if (from && from.positions.length === next.dimension * next.particleCount) {
+    if (from && canResume(scene) && from.positions.length === next.dimension * next.particleCount) {
       next.setState(from.positions, from.velocities);
       this.#timeOffset = from.time;
       this.#stepOffset = from.steps;
@@ -235,6 +235,7 @@ export class GpuEngine implements Engine {
     if (now - this.#timed > passTimesMs) {
       this.stats.passes = sim.passTimes();
       this.stats.memory = this.gpu.memory;
+      this.stats.warning = sim.warning;
       this.#timed = now;
     }
   }

@@ -51,6 +51,7 @@ export class MainEngine implements Engine {
       this.stats.time = frame.time;
       this.stats.stepMs = frame.stepMs;
       this.stats.clock = frame.clock;
+      this.stats.warning = frame.warning;
       this.#picture.addSamples(frame.samples);
       if (frame.diagnostics) this.stats.diagnostics = frame.diagnostics;
       this.#picture.setValues(this.#values);

@@ -119,6 +119,7 @@ export class WorkerEngine implements Engine {
     stats.time = message.time;
     stats.stepMs = message.stepMs;
     stats.clock = message.clock;
+    stats.warning = message.warning;
     this.#picture.addSamples(message.samples);
     if (message.diagnostics) stats.diagnostics = message.diagnostics;
     this.#picture.setValues(new Float32Array(message.buffer));

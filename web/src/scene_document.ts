@@ -11,8 +11,14 @@ export type SceneDocument = {
   walls?: { surface_velocity?: number[]; motion?: { velocity?: number[] } }[];
   bodies?: unknown[];
   emitters?: { speed?: number }[];
+  drains?: unknown[];
   [key: string]: unknown;
 };
+
+// Whether positions and velocities of the fluid alone are enough to go on from: what moves beside it would start anew.
+export function canResume({ walls = [], bodies = [], emitters = [], drains = [] }: SceneDocument): boolean {
+  return bodies.length + emitters.length + drains.length === 0 && walls.every((wall) => wall.motion === undefined);
+}
 
 export type SceneEntry = { name: string; title: string; group: string };
 

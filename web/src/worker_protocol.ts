@@ -36,6 +36,7 @@ export type FromWorker =
       diagnostics: Diagnostics | null;
       clock: Clock | null;
       samples: ProbeSamples[];
+      warning: string;
       buffer: ArrayBuffer;
     }
   | { type: 'fault'; run: number; status: Status; message: string };
