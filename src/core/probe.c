@@ -15,6 +15,7 @@ static const double height_points = 16.0;
 // Everything that a measurement reads, in double where it is computed with.
 typedef struct Field {
     const WeirState *state;
+    size_t count; // ids below may be fluid
     uint32_t dimension, kernel;
     double support, mass;
     double period[3]; // m, 0: not periodic
@@ -26,6 +27,7 @@ static Field make_field(const WeirState *state, const WeirParameters *parameters
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     Field field = {
         .state = state,
+        .count = constants->first_solid ? constants->first_solid : state->count,
         .dimension = state->dimension,
         .kernel = parameters->kernel,
         .support = parameters->support_radius,
@@ -77,7 +79,7 @@ static void interpolate(const Field *field, const double point[3], const float *
 {
     double sum = 0.0, support2 = field->support * field->support;
     for (uint32_t k = 0; k < components; ++k) values[k] = 0.0;
-    for (size_t i = 0; i < field->state->count; ++i) {
+    for (size_t i = 0; i < field->count; ++i) {
         double r2 = distance2(field, i, point);
         if (!(r2 < support2) || !is_fluid(field->state, i)) continue;
         double w = weight(field, i, r2);
@@ -163,7 +165,7 @@ static double height(const Field *field, const WeirParameters *parameters, const
     size_t count = 0, capacity = 0;
     Near *near = NULL, found;
     make_up(parameters, field->dimension, up);
-    for (size_t i = 0; i < field->state->count; ++i) {
+    for (size_t i = 0; i < field->count; ++i) {
         if (!is_near_line(field, i, point, up, &found)) continue;
         if (count == capacity) {
             capacity = capacity ? 2 * capacity : 256;
@@ -188,7 +190,7 @@ static double front(const Field *field, const double direction[3], double spacin
     double farthest = -INFINITY, length2 = 0.0;
     for (uint32_t axis = 0; axis < field->dimension; ++axis) length2 += direction[axis] * direction[axis];
     if (!(length2 > 0.0)) return NAN;
-    for (size_t i = 0; i < field->state->count; ++i) {
+    for (size_t i = 0; i < field->count; ++i) {
         const float *x = &field->state->position[field->dimension * i];
         double along = 0.0;
         for (uint32_t axis = 0; axis < field->dimension; ++axis) along += x[axis] * direction[axis];
@@ -200,7 +202,7 @@ static double front(const Field *field, const double direction[3], double spacin
 static double mass_inside(const Field *field, const double min[3], const double max[3])
 {
     size_t inside = 0;
-    for (size_t i = 0; i < field->state->count; ++i) {
+    for (size_t i = 0; i < field->count; ++i) {
         const float *x = &field->state->position[field->dimension * i];
         bool in = true;
         for (uint32_t axis = 0; axis < field->dimension; ++axis)

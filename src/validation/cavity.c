@@ -47,7 +47,7 @@ static void add_to_line(Line *line, const WeirSample *sample, uint32_t flow, boo
     for (uint32_t row = 0; row < line->rows; ++row) {
         double s = line->table[4 * row], velocity[3];
         double point[3] = {is_u ? 0.5 : s, is_u ? s : 0.5, 0.0};
-        weir_measure_velocity(sample, point, velocity);
+        weir_measure_linear_velocity(sample, point, velocity);
         line->sum[flow][row] += velocity[is_u ? 0 : 1];
     }
     ++line->samples[flow];

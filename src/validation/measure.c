@@ -1,5 +1,6 @@
 #include "validation/measure.h"
 #include "core/probe.h"
+#include "core/smoothing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -93,11 +94,48 @@ double weir_measure_pressure(const WeirSample *sample, const double point[3])
     return values[0];
 }
 
-void weir_measure_velocity(const WeirSample *sample, const double point[3], double velocity[3])
+// Sums of the least-squares plane: moments of w (1, d) (1, d)^T and of w (1, d) v.
+typedef struct Plane {
+    double matrix[4][4], right[4][3];
+} Plane;
+
+static void add_to_plane(Plane *plane, const WeirSample *sample, size_t i, const double point[3])
 {
-    WeirProbePiece probe = {.kind = WEIR_PROBE_VELOCITY, .position = {point[0], point[1], point[2]}};
-    velocity[2] = 0.0;
-    measure(sample, &probe, velocity);
+    uint32_t dimension = sample->state->dimension;
+    double terms[4] = {1.0, 0.0, 0.0, 0.0}, r2 = 0.0, radius = sample->parameters->support_radius;
+    for (uint32_t axis = 0; axis < dimension; ++axis) {
+        double d = weir_sample_position(sample, i, axis) - point[axis];
+        terms[1 + axis] = d / radius;
+        r2 += d * d;
+    }
+    if (r2 >= radius * radius || !weir_sample_is_fluid(sample, i)) return;
+    double w = weir_smoothing_shape(sample->parameters->kernel, sqrt(r2) / radius);
+    for (uint32_t row = 0; row <= dimension; ++row) {
+        for (uint32_t column = 0; column <= dimension; ++column)
+            plane->matrix[row][column] += w * terms[row] * terms[column];
+        for (uint32_t axis = 0; axis < dimension; ++axis)
+            plane->right[row][axis] += w * terms[row] * weir_sample_velocity(sample, i, axis);
+    }
+}
+
+void weir_measure_linear_velocity(const WeirSample *sample, const double point[3], double velocity[3])
+{
+    Plane plane = {{{0.0}}, {{0.0}}};
+    uint32_t size = sample->state->dimension + 1;
+    for (size_t i = 0; i < sample->state->count; ++i) add_to_plane(&plane, sample, i, point);
+    // Elimination from the last row up leaves the value at the point in the first; the matrix is symmetric and
+    // positive if there is fluid around.
+    for (uint32_t k = size - 1; k > 0; --k) {
+        for (uint32_t row = 0; row < k; ++row) {
+            double factor = plane.matrix[row][k] / plane.matrix[k][k];
+            for (uint32_t column = 0; column < k; ++column)
+                plane.matrix[row][column] -= factor * plane.matrix[k][column];
+            for (uint32_t axis = 0; axis + 1 < size; ++axis)
+                plane.right[row][axis] -= factor * plane.right[k][axis];
+        }
+    }
+    for (uint32_t axis = 0; axis < 3; ++axis)
+        velocity[axis] = axis + 1 < size ? plane.right[0][axis] / plane.matrix[0][0] : 0.0;
 }
 
 // ---- Clusters: union-find over pairs found in cells of the link's size ----

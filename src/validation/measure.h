@@ -30,7 +30,10 @@ WeirFluidSums weir_fluid_sums(const WeirSample *sample);
 // Probes without a scene's piece (probe.h).
 double weir_measure_height(const WeirSample *sample, double x, double z);
 double weir_measure_pressure(const WeirSample *sample, const double point[3]);
-void weir_measure_velocity(const WeirSample *sample, const double point[3], double velocity[3]);
+
+// Velocity at a point by the weighted least-squares plane through the fluid's velocities around it: exact for linear
+// fields even beside a wall, where the probe's mean over one side is off by the slope. NaN where there is too little fluid.
+void weir_measure_linear_velocity(const WeirSample *sample, const double point[3], double velocity[3]);
 
 // Share of the fluid's particles in the largest group whose members are linked by gaps below `link`, m. NaN if memory
 // runs out or there is no fluid.

@@ -294,6 +294,28 @@ static void test_reference_reader(void **state)
     assert_int_equal(weir_reference_read("# nothing", 1, rows, 2), 0);
 }
 
+static void test_velocity_beside_a_wall_is_linear(void **state)
+{
+    (void)state;
+    Made made;
+    make(&made, 30, 0.0, 0.0, 1.0);
+    for (uint32_t i = 0; i < made.state.count; ++i) {
+        made.velocity[2 * i] = 3.0f * made.position[2 * i + 1] - 1.0f;
+        made.velocity[2 * i + 1] = 2.0f * made.position[2 * i];
+    }
+    const double points[3][3] = {{0.5, 1.0, 0.0}, {0.01, 0.02, 0.0}, {0.437, 0.61, 0.0}};
+    for (int k = 0; k < 3; ++k) {
+        double velocity[3];
+        weir_measure_linear_velocity(&made.sample, points[k], velocity);
+        CHECK_NEAR(velocity[0], 3.0 * points[k][1] - 1.0, 1e-5);
+        CHECK_NEAR(velocity[1], 2.0 * points[k][0], 1e-5);
+    }
+    double outside[3];
+    weir_measure_linear_velocity(&made.sample, (double[]){3.0, 3.0, 0.0}, outside);
+    assert_true(isnan(outside[0]));
+    unmake(&made);
+}
+
 static void test_clusters(void **state)
 {
     (void)state;
@@ -360,6 +382,7 @@ int main(void)
         cmocka_unit_test(test_formulas_give_the_tables),
         cmocka_unit_test(test_series_meet_their_ends),
         cmocka_unit_test(test_reference_reader),
+        cmocka_unit_test(test_velocity_beside_a_wall_is_linear),
         cmocka_unit_test(test_clusters),
         cmocka_unit_test(test_every_case_is_complete),
         cmocka_unit_test(test_gates_judge),
