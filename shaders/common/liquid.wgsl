@@ -1,19 +1,19 @@
 // Equation of state of `wcsph`, and the move of a particle (docs/wcsph.md).
-fn pressure_of(density: f32) -> f32 {
+fn pressure_of(excess: f32) -> f32 {
     let stiffness = constants.sound_speed * constants.sound_speed;
     if TAIT {
         // (1 + x)^7 - 1 as a polynomial: no small difference of large numbers, and no division.
-        let x = (density - parameters.rest_density) * (1.0 / parameters.rest_density);
+        let x = excess * (1.0 / parameters.rest_density);
         let sum = 7.0 + x * (21.0 + x * (35.0 + x * (35.0 + x * (21.0 + x * (7.0 + x)))));
         return parameters.rest_density * stiffness / 7.0 * x * sum + parameters.background_pressure;
     }
-    return linear_pressure(density);
+    return linear_pressure(excess);
 }
 
 // Of solid particles, whose density stands for their pressure.
-fn linear_pressure(density: f32) -> f32 {
+fn linear_pressure(excess: f32) -> f32 {
     let stiffness = constants.sound_speed * constants.sound_speed;
-    return stiffness * (density - parameters.rest_density) + parameters.background_pressure;
+    return stiffness * excess + parameters.background_pressure;
 }
 
 fn wrap(x: i32, period: u32) -> i32 {

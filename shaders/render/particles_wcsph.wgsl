@@ -1,7 +1,7 @@
 // Particles of the method wcsph: the solver's own buffers, one element per particle, all in one order.
 
 @group(1) @binding(0) var<storage, read> coordinate: array<vec4i>; // quanta from frame.origin, group
-@group(1) @binding(1) var<storage, read> motion: array<vec4f>;     // velocity, m/s; density
+@group(1) @binding(1) var<storage, read> motion: array<vec4f>;     // velocity, m/s; excess density, kg/m^3
 
 fn particle_group(particle: u32) -> u32 {
     return u32(coordinate[particle].w);
@@ -13,14 +13,14 @@ fn particle_speed(particle: u32) -> f32 {
     return length(motion[particle].xyz);
 }
 fn particle_density(particle: u32) -> f32 {
-    return motion[particle].w;
+    return frame.rest_density + motion[particle].w;
 }
 // The equation of state, docs/wcsph.md.
 fn particle_pressure(particle: u32) -> f32 {
     let stiffness = frame.sound_speed * frame.sound_speed;
-    let density = motion[particle].w;
-    if frame.tait == 0u { return stiffness * (density - frame.rest_density) + frame.background_pressure; }
-    let ratio = density / frame.rest_density;
+    let excess = motion[particle].w;
+    if frame.tait == 0u { return stiffness * excess + frame.background_pressure; }
+    let ratio = 1.0 + excess / frame.rest_density;
     let cube = ratio * ratio * ratio;
     return stiffness * frame.rest_density / 7.0 * (cube * cube * ratio - 1.0) + frame.background_pressure;
 }

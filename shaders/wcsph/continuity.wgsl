@@ -34,7 +34,8 @@ fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
             let r_squared = dot(offset, offset);
             if BRANCH_FREE || r_squared < support * support {
                 let neighbor = kicked[j];
-                let slope = kernel_slope(sqrt(r_squared) * constants.inverse_support) / neighbor.w;
+                let slope = kernel_slope(sqrt(r_squared) * constants.inverse_support)
+                    / (parameters.rest_density + neighbor.w);
                 divergence += slope * dot(velocity - vector_of(neighbor), offset);
                 if DIFFUSION {
                     // rho_j - rho_i less what the height between them makes
@@ -47,7 +48,7 @@ fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;
     let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * c;
-    return own_motion.w * (compress * divergence + shift_rate) + diffuse * diffusion;
+    return (parameters.rest_density + own_motion.w) * (compress * divergence + shift_rate) + diffuse * diffusion;
 }
 
 fn check_health(i: u32, speed_squared: f32, rate: f32) {
@@ -87,7 +88,7 @@ fn finish_fluid(i: u32, own: vec4i) {
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w += last_half * rate;
-    let error = bitcast<u32>(abs(own_motion.w / parameters.rest_density - 1.0));
+    let error = bitcast<u32>(abs(own_motion.w) / parameters.rest_density);
     if error > atomicLoad(&error_most) {
         atomicMax(&error_most, error);
     }

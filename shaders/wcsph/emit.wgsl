@@ -40,7 +40,7 @@ fn bear(n: u32, k: u32, way: f32) {
     let born = place_of(nozzle[flows.emitters[n].point_first + k])
         + quanta_of(way * vector_of(flows.emitters[n].direction));
     coordinate[i] = vec4i(wide_place(born), i32(GROUP_INLET + n));
-    motion[i] = vec4f(wide(velocity), parameters.rest_density);
+    motion[i] = vec4f(wide(velocity), 0.0);
     vacancy[own_id] = 0u;
 }
 

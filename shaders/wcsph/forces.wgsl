@@ -68,7 +68,7 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
             if BRANCH_FREE || (acts && r_squared < support * support) {
                 let neighbor = sorted_motion[j];
                 let s = sqrt(r_squared) * constants.inverse_support;
-                let slope = select(0.0, kernel_slope(s) / neighbor.w, acts);
+                let slope = select(0.0, kernel_slope(s) / (parameters.rest_density + neighbor.w), acts);
                 var pressure = pressure_of(neighbor.w);
                 if TAIT && !fluid {
                     pressure = linear_pressure(neighbor.w);
@@ -109,13 +109,13 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
 }
 
 // m/s^2 per unit of the sum of pressures.
-fn pressure_scale(density: f32) -> f32 {
-    return -constants.quantum * constants.particle_mass * constants.gradient_factor / density;
+fn pressure_scale(excess: f32) -> f32 {
+    return -constants.quantum * constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
 }
 
 // By pressure and viscosity. `own_pressure` as it enters the sum; `inside`: of fluid whose support is full.
-fn acceleration_of(sums: Sums, density: f32, own_pressure: f32, inside: bool) -> Vector {
-    let scale = constants.particle_mass * constants.gradient_factor / density;
+fn acceleration_of(sums: Sums, excess: f32, own_pressure: f32, inside: bool) -> Vector {
+    let scale = constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
     var sum = Vector();
     if VISCOUS && LAMINAR {
         sum += select(constants.viscosity_factor, constants.artificial_factor, inside) * sums.viscous;
@@ -126,7 +126,7 @@ fn acceleration_of(sums: Sums, density: f32, own_pressure: f32, inside: bool) ->
     if FRICTION {
         sum += (2.0 * parameters.viscosity) * sums.friction;
     }
-    return scale * sum + pressure_scale(density) * (sums.pressure + own_pressure * sums.gradient);
+    return scale * sum + pressure_scale(excess) * (sums.pressure + own_pressure * sums.gradient);
 }
 
 // WeirToolKind
@@ -238,8 +238,8 @@ fn take_acceleration(square: f32) {
     }
 }
 
-fn take_density(density: f32) {
-    atomicMax(&error_most, bitcast<u32>(abs(density / parameters.rest_density - 1.0)));
+fn take_density(excess: f32) {
+    atomicMax(&error_most, bitcast<u32>(abs(excess) / parameters.rest_density));
 }
 
 fn clear_maxima() {
@@ -283,9 +283,9 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
-    let lack = parameters.rest_density - own_motion.w;
+    let lack = -own_motion.w;
     if full * sums.surface < SPRAY_LIMIT * f32(DIMENSION) && lack > 0.0 {
-        shift.w = lack / own_motion.w * constants.sound_speed / constants.smoothing_length;
+        shift.w = lack / (parameters.rest_density + own_motion.w) * constants.sound_speed / constants.smoothing_length;
     }
     kicked[constants.particle_count + i] = shift;
     take_speed(dot(new_velocity, new_velocity));

@@ -1,4 +1,4 @@
-// What solid particles see of the fluid near them (Adami, Hu, Adams 2012): pressure, kept as the density that it
+// What solid particles see of the fluid near them (Adami, Hu, Adams 2012): pressure, kept as the excess density that it
 // stands for, and for the laminar viscosity the mirrored velocity.
 //
 // in:  sorted_coordinate, sorted_motion (of the fluid), sorted_id, cell_start, solid_state, local_place
@@ -58,7 +58,7 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
                 weight += w;
                 pressure += w * pressure_of(fluid.w);
                 mean += w * vector_of(fluid);
-                moment += (w * fluid.w) * offset;
+                moment += (w * (parameters.rest_density + fluid.w)) * offset;
             }
         }
     }
@@ -72,6 +72,6 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
         wall_pressure = max(pressure * inverse + dot(fall, wide(moment * (inverse * constants.quantum))), 0.0);
     }
     let stiffness = constants.sound_speed * constants.sound_speed;
-    let density = parameters.rest_density + (wall_pressure - parameters.background_pressure) / stiffness;
-    sorted_motion[i] = vec4f(seen, density);
+    let excess = (wall_pressure - parameters.background_pressure) / stiffness;
+    sorted_motion[i] = vec4f(seen, excess);
 }

@@ -21,9 +21,10 @@ typedef struct WeirGpuParticles {
     WGPUBuffer flow;     // array<vec4f>: velocity, density, pressure as the last step's passes used them
     // wcsph; NULL otherwise. Walls and bodies are particles too; draw by group.
     WGPUBuffer coordinate; // array<vec4i>: x, y, z in quanta from constants.origin (2D: z = 0), group
-    WGPUBuffer motion;     // array<vec4f>: velocity, m/s; density, kg/m^3 (of solids from the fluid near by)
-    WGPUBuffer solids;     // array<WeirSolidState>, newest; solid_count of them, NULL if there are none
-    uint32_t count;        // particles, with empty slots (WEIR_GROUP_EMPTY, anywhere in the arrays)
+    WGPUBuffer
+        motion; // array<vec4f>: velocity, m/s; density less rest density, kg/m^3 (of solids from the fluid near by)
+    WGPUBuffer solids; // array<WeirSolidState>, newest; solid_count of them, NULL if there are none
+    uint32_t count;    // particles, with empty slots (WEIR_GROUP_EMPTY, anywhere in the arrays)
     uint32_t solid_count;
 } WeirGpuParticles;
 // False if the simulation does not run on a GPU.

@@ -190,7 +190,7 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
             velocity[k] = empty ? 0.0f : own[axis];
             acceleration[k] = empty ? 0.0f : view->kicked[4 * i + axis];
         }
-        density[id] = empty ? 0.0f : view->motion[4 * i + 3];
+        density[id] = empty ? 0.0f : solver->common.parameters.rest_density + view->motion[4 * i + 3];
         pressure[id] = empty ? 0.0f : view->kicked[4 * i + 3];
         solver->host_group[id] = group;
     }

@@ -178,7 +178,8 @@ static void set_particle(WeirWcsphGpu *solver, const WeirParticles *particles, u
         state->motion[i][axis] = particles->velocity[k];
     }
     state->coordinate[i][3] = (int32_t)group;
-    state->motion[i][3] = particles->density ? particles->density[i] : solver->common.parameters.rest_density;
+    state->motion[i][3] =
+        particles->density ? particles->density[i] - solver->common.parameters.rest_density : 0.0f;
     state->id[i] = i;
     if (weir_group_is_solid(group))
         set_local_place(solver, particles, i, group);

@@ -40,7 +40,7 @@ bool weir_upload(WeirGpu *gpu, WeirSim *cpu, WeirGpuParticles *particles)
             motion[i][k] = state.velocity[state.dimension * i + k];
         }
         coordinate[i][3] = state.group ? (int32_t)state.group[i] : 0;
-        motion[i][3] = state.density[i];
+        motion[i][3] = state.density[i] - weir_sim_parameters(cpu)->rest_density;
     }
     good = good && weir_upload_arrays(gpu, coordinate, motion, state.count, particles);
     free(coordinate);

@@ -60,14 +60,14 @@ static void scan(WeirWcsph *solver)
     solver->active = solver->cells.cell_start[solver->constants.cell_count];
 }
 
-// p of a density, docs/wcsph.md.
-static float equation_of_state(const WeirWcsph *solver, float density)
+// p of an excess density, docs/wcsph.md.
+static float equation_of_state(const WeirWcsph *solver, float excess)
 {
     const WeirParameters *parameters = &solver->parameters;
     float c2 = solver->constants.sound_speed * solver->constants.sound_speed, rest = parameters->rest_density;
     if (parameters->equation_of_state == WEIR_EQUATION_LINEAR)
-        return c2 * (density - rest) + parameters->background_pressure;
-    float ratio = density / rest, cube = ratio * ratio * ratio;
+        return c2 * excess + parameters->background_pressure;
+    float ratio = 1.0f + excess / rest, cube = ratio * ratio * ratio;
     return rest * c2 / 7.0f * (cube * cube * ratio - 1.0f) + parameters->background_pressure;
 }
 
@@ -78,7 +78,7 @@ static void copy_particle(const WeirWcsphParticles *to, uint32_t k, const WeirWc
         to->x[axis][k] = from->x[axis][i];
         to->velocity[axis][k] = from->velocity[axis][i];
     }
-    to->density[k] = from->density[i];
+    to->excess[k] = from->excess[i];
     to->rate[k] = from->rate[i];
     to->id[k] = from->id[i];
     to->group[k] = from->group[i];
@@ -92,7 +92,7 @@ static void prepare(WeirWcsph *solver, uint32_t k)
     data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
     data->stick[k] = 1.0f;
     data->needs_force[k] = 0.0f;
-    data->inverse_density[k] = 1.0f / solver->sorted.density[k];
+    data->inverse_density[k] = 1.0f / (solver->parameters.rest_density + solver->sorted.excess[k]);
     data->pressure[k] = 0.0f;
     if (weir_group_is_solid(group)) {
         const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
@@ -100,7 +100,7 @@ static void prepare(WeirWcsph *solver, uint32_t k)
         data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
         return;
     }
-    data->pressure[k] = equation_of_state(solver, solver->sorted.density[k]);
+    data->pressure[k] = equation_of_state(solver, solver->sorted.excess[k]);
     for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = solver->sorted.velocity[axis][k];
 }
 
@@ -129,7 +129,7 @@ static void point_to_sorted(WeirWcsph *solver)
         data->x[axis] = solver->sorted.x[axis];
         data->velocity[axis] = solver->sorted.velocity[axis];
     }
-    data->density = solver->sorted.density;
+    data->excess = solver->sorted.excess;
     data->rate = solver->sorted.rate;
 }
 
@@ -212,7 +212,7 @@ static void choose_first_step(WeirWcsph *solver)
         weir_atomic_max(&solver->speed_bits, sqrtf(speed2));
         weir_atomic_max(&solver->acceleration_bits, sqrtf(acceleration2));
         weir_atomic_max(&solver->density_bits,
-                        fabsf(solver->sorted.density[i] / solver->parameters.rest_density - 1.0f));
+                        fabsf(solver->sorted.excess[i]) / solver->parameters.rest_density);
         ++solver->fluid_in_step;
     }
     weir_wcsph_time_step(solver);

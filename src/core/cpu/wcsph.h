@@ -14,7 +14,9 @@ enum { WEIR_WCSPH_CHUNK = 512, WEIR_WCSPH_CELL_CHUNK = 4096 };
 typedef struct WeirWcsphParticles {
     int32_t *x[3];      // quanta
     float *velocity[3]; // m/s
-    float *density, *rate;
+    float *
+        excess; // density less the rest density, kg/m^3: float32 holds its small changes, which make the pressure
+    float *rate; // drho/dt
     uint32_t *id, *group;
 } WeirWcsphParticles;
 

@@ -46,7 +46,7 @@ static void bear(WeirWcsph *solver, uint32_t n, uint32_t point, double way, uint
         state->velocity[axis][i] =
             axis < constants->dimension ? emitter->speed * emitter->direction[axis] : 0.0f;
     }
-    state->density[i] = solver->parameters.rest_density;
+    state->excess[i] = 0.0f;
     state->rate[i] = 0.0f;
     state->group[i] = WEIR_GROUP_INLET + n;
 }

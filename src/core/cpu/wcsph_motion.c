@@ -90,7 +90,7 @@ static void drift_chunk(void *context, uint32_t begin, uint32_t end)
         float way[3];
         for (int axis = 0; axis < 3; ++axis) way[axis] = half * state->velocity[axis][i];
         move(&solver->constants, state, i, way);
-        state->density[i] += half * state->rate[i];
+        state->excess[i] += half * state->rate[i];
         if (group != WEIR_GROUP_FLUID) {
             if (has_passed(solver, i)) state->group[i] = WEIR_GROUP_FLUID;
             continue;
@@ -210,12 +210,12 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
             to->velocity[axis][i] = data->new_velocity[axis][i];
             way[axis] = half * to->velocity[axis][i] + (free ? dt * data->shift[axis][i] : 0.0f);
         }
-        to->density[i] += half * data->rate[i];
+        to->excess[i] += half * data->rate[i];
         move(&solver->constants, to, i, way);
         if (free) seal(solver, to, i);
         ++maxima.fluid;
         maxima.speed2 = fmaxf(maxima.speed2, speed2);
-        maxima.density_error = fmaxf(maxima.density_error, fabsf(to->density[i] / rest_density - 1.0f));
+        maxima.density_error = fmaxf(maxima.density_error, fabsf(to->excess[i]) / rest_density);
         if (free)
             maxima.acceleration2 =
                 fmaxf(maxima.acceleration2, square((const float *const *)data->acceleration, i));

@@ -132,6 +132,7 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 {
     float inverse_support = data->constants->inverse_support;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
+    float rest_density = data->parameters->rest_density;
     WeirLanes weight = {0}, pressure = {0};
     Vector mean = {{0}, {0}, {0}}, moment = {{0}, {0}, {0}};
     for (uint32_t n = 0; n < group->run_count; ++n) {
@@ -148,7 +149,7 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
             mean.x += w * data->velocity[0][j];
             mean.y += w * data->velocity[1][j];
             if (variant.three_dimensional) mean.z += w * data->velocity[2][j];
-            add_scaled(&moment, w * data->density[j], x, variant);
+            add_scaled(&moment, w * (data->excess[j] + rest_density), x, variant);
         }
     }
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
@@ -339,7 +340,7 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
             add_body_forces(data, i);
             finish_shift(data, &sums, lane, i, inside);
             bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;
-            float lack = data->parameters->rest_density - data->density[i];
+            float lack = -data->excess[i];
             if (spray && lack > 0.0f)
                 data->shift_rate[i] =
                     lack * data->inverse_density[i] * constants->sound_speed / constants->smoothing_length;
@@ -368,7 +369,7 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
         hydrostatic[axis] =
             parameters->rest_density / (c0 * c0) * parameters->gravity[axis] * constants->quantum;
     }
-    WeirLanes rho = weir_lanes_load(data->density + begin);
+    WeirLanes own = weir_lanes_load(data->excess + begin), rho = own + parameters->rest_density;
     Vector vi = load((const float *const *)data->new_velocity, begin, variant);
     WeirLanes divergence = {0}, diffusion = {0};
     for (uint32_t n = 0; n < group->run_count; ++n) {
@@ -384,7 +385,7 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
             if (variant.three_dimensional) v.z = vi.z - data->new_velocity[2][j];
             divergence += slope * dot(v, x, variant);
             // rho_j - rho_i less what the height between them makes
-            WeirLanes excess = data->density[j] - rho + x.x * hydrostatic[0] + x.y * hydrostatic[1];
+            WeirLanes excess = data->excess[j] - own + x.x * hydrostatic[0] + x.y * hydrostatic[1];
             if (variant.three_dimensional) excess += x.z * hydrostatic[2];
             diffusion += slope * excess * data->is_fluid[j];
         }

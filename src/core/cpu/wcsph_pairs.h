@@ -16,7 +16,7 @@ typedef struct WeirWcsphData {
     float *is_fluid;          // 1 fluid, 0 solid
     float *stick;             // 1 fluid and no-slip solids, 0 free-slip solids
     float *needs_force;       // solids: 1 if the force on the particle is wanted
-    float *density;           // kg/m^3; of solids: of their extrapolated pressure
+    float *excess;            // density less rest density, kg/m^3; of solids: of their extrapolated pressure
     float *inverse_density;   // m^3/kg
     float *pressure;          // Pa
     float *seen_velocity[3];  // as `forces` sees it: of no-slip solids mirrored

@@ -130,9 +130,8 @@ static void walls_chunk(void *context, uint32_t begin, uint32_t end)
             for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][i] = data->velocity[axis][i];
         }
         data->pressure[i] = pressure;
-        data->density[i] =
-            parameters->rest_density + (pressure - parameters->background_pressure) / stiffness;
-        data->inverse_density[i] = 1.0f / data->density[i];
+        data->excess[i] = (pressure - parameters->background_pressure) / stiffness;
+        data->inverse_density[i] = 1.0f / (parameters->rest_density + data->excess[i]);
     }
 }
 

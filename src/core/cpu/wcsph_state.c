@@ -22,7 +22,7 @@ static bool make_particles(WeirWcsphParticles *particles, size_t size)
         particles->x[axis] = words + (size_t)axis * size;
         particles->velocity[axis] = numbers + (size_t)(3 + axis) * size;
     }
-    particles->density = numbers + 6 * size;
+    particles->excess = numbers + 6 * size;
     particles->rate = numbers + 7 * size;
     particles->id = (uint32_t *)(void *)(words + 8 * size);
     particles->group = (uint32_t *)(void *)(words + 9 * size);
@@ -144,7 +144,8 @@ static void set_particle(WeirWcsph *solver, const WeirParticles *particles, uint
         solver->state.x[axis][i] = place;
         solver->state.velocity[axis][i] = axis < dimension ? particles->velocity[k] : 0.0f;
     }
-    solver->state.density[i] = particles->density ? particles->density[i] : solver->parameters.rest_density;
+    solver->state.excess[i] =
+        particles->density ? particles->density[i] - solver->parameters.rest_density : 0.0f;
     solver->state.rate[i] = 0.0f;
     solver->state.id[i] = i;
     solver->state.group[i] = particles->group ? particles->group[i] : WEIR_GROUP_FLUID;
@@ -223,7 +224,7 @@ static void copy_chunk(void *context, uint32_t begin, uint32_t end)
             host->velocity[k] = empty ? 0.0f : sorted->velocity[axis][i];
             host->acceleration[k] = empty ? 0.0f : solver->data.acceleration[axis][i];
         }
-        host->density[id] = empty ? 0.0f : sorted->density[i];
+        host->density[id] = empty ? 0.0f : solver->parameters.rest_density + sorted->excess[i];
         host->pressure[id] = empty ? 0.0f : solver->data.pressure[i];
         host->group[id] = sorted->group[i];
     }
