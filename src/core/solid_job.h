@@ -35,5 +35,5 @@ void weir_job_mesh(WeirSolidJob *job);
 // most `deepest` metres deep; skips the rest by halving boxes.
 typedef void WeirVisit(WeirSolidJob *job, const double *point);
 void weir_job_scan(WeirSolidJob *job, WeirVisit *visit, double deepest);
-// Fills what is left: wherever no particle is within 0.73 spacings in 2D, 0.9 in 3D.
+// Fills what is left: wherever no particle is within 0.73 spacings in 2D, 0.87 in 3D.
 void weir_job_fill(WeirSolidJob *job);

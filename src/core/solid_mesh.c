@@ -70,11 +70,12 @@ void weir_job_scan(WeirSolidJob *job, WeirVisit *visit, double deepest)
 
 // ---- Layers ----
 
-// Moves a point to the middle of its layer, along the way on which the depth grows.
-static void settle(WeirSolidJob *job, const double *point)
+// Moves a point to the middle of its layer, along the way on which the depth grows; it stays there if no particle is
+// nearer than `apart`.
+static void settle_apart(WeirSolidJob *job, const double *point, double apart)
 {
     // A point of the raster lies within half its diagonal of the layer it belongs to.
-    double spacing = job->spacing, longest = 0.22 * spacing, apart = 0.93 * spacing, moved[3], slope[3];
+    double spacing = job->spacing, longest = 0.22 * spacing, moved[3], slope[3];
     if (weir_near_within(&job->near, point, apart - longest)) return; // it would be too near wherever it goes
     double depth = weir_mesh_tree_distance(job->surface->tree, point, slope), sign = job->around ? 1.0 : -1.0;
     depth *= sign;
@@ -87,12 +88,24 @@ static void settle(WeirSolidJob *job, const double *point)
     weir_job_add(job, moved);
 }
 
+// Measured on spheres, this distance gives the right number of particles; along the axes it gives the lattice.
+static void settle(WeirSolidJob *job, const double *point)
+{
+    settle_apart(job, point, 0.905 * job->spacing);
+}
+
+static void settle_holes(WeirSolidJob *job, const double *point)
+{
+    settle_apart(job, point, 0.77 * job->spacing);
+}
+
 // Layers as far as they can matter: inside a body, deeper, the raster itself is as good.
 void weir_job_mesh(WeirSolidJob *job)
 {
     enum { DEEPEST = 6 };
     uint32_t layers = job->layers < DEEPEST ? job->layers : DEEPEST;
     weir_job_scan(job, settle, layers * job->spacing);
+    weir_job_scan(job, settle_holes, layers * job->spacing);
     weir_job_fill(job);
 }
 
@@ -105,10 +118,10 @@ static void fill_at(WeirSolidJob *job, const double *point, double radius)
     if (depth >= 0.45 * job->spacing && depth <= job->layers * job->spacing) weir_job_add(job, point);
 }
 
-// In 3D a cubic lattice leaves 0.87 spacings, in 2D a square one 0.71.
+// In 3D a cubic lattice leaves 0.866 spacings, in 2D a square one 0.707.
 static void fill_3d(WeirSolidJob *job, const double *point)
 {
-    fill_at(job, point, 0.9 * job->spacing);
+    fill_at(job, point, 0.87 * job->spacing);
 }
 
 static void fill_2d(WeirSolidJob *job, const double *point)

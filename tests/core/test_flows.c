@@ -16,7 +16,8 @@ static WeirScene *start(double low, double high, double spacing)
     CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
     weir_test_set(scene, "particle_spacing", spacing);
     weir_test_gravity(scene, 0, 0);
-    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){low, low, 0}, (double[]){high, high, 0}), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){low, low, 0}, (double[]){high, high, 0}),
+                WEIR_OK);
     return scene;
 }
 
@@ -158,7 +159,8 @@ static void functions_are_exact(void **state)
     (void)state;
     WeirRandom random = {.state = 5};
     for (int n = 0; n < 2000; ++n) {
-        double angle = weir_random_range(&random, -1, 1) * pow(10, weir_random_range(&random, -3, 4)), sine, cosine;
+        double angle = weir_random_range(&random, -1, 1) * pow(10, weir_random_range(&random, -3, 4)), sine,
+               cosine;
         weir_sine_cosine(angle, &sine, &cosine);
         CHECK_NEAR(sine, sin(angle), 1e-11);
         CHECK_NEAR(cosine, cos(angle), 1e-11);
@@ -188,7 +190,8 @@ static void the_speed_of_sound_follows_the_scene(void **state)
     weir_test_set(scene, "viscosity", 4000);
     CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.min", (double[]){0, 1}, 2), WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.max", (double[]){1, 1.2}, 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].surface_velocity", (double[]){2, 0}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].surface_velocity", (double[]){2, 0}, 2),
+                WEIR_OK);
     CHECK_NEAR(weir_scene_expected_speed(scene), sqrt(8), 1e-9);
     weir_scene_destroy(scene);
     // Water of depth 0.5 m falls: 2 sqrt(g H).

@@ -5,14 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/build.h"
+#include "common/random_shapes.h"
 #include "core/scene_shape.h"
 
-static const double spacing = 0.05;
+static double spacing; // coarser in 3D
 
 static WeirScene *start(uint32_t dimension)
 {
     WeirScene *scene = weir_scene_create();
+    spacing = dimension == 3 ? 0.07 : 0.05;
     CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
     weir_test_set(scene, "particle_spacing", spacing);
@@ -37,100 +38,6 @@ static void put_fluid_inside(WeirScene *scene)
     CHECK_SCENE(scene,
                 weir_scene_set_numbers(scene, "fluid[0].ball.center", (double[]){0, 0, 0}, scene->dimension),
                 WEIR_OK);
-}
-
-// A star with corners at random distances; the middle is inside.
-static void add_polygon(WeirScene *scene, const char *list, WeirRandom *random)
-{
-    char path[64];
-    uint32_t count = 5 + weir_random_next(random) % 8;
-    for (uint32_t n = 0; n < count; ++n) {
-        double angle = 2 * 3.14159265358979 * n / count, r = weir_random_range(random, 0.5, 1.1);
-        snprintf(path, sizeof path, "%s[0].polygon[%u]", list, n);
-        CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, (double[]){r * cos(angle), r * sin(angle)}, 2),
-                    WEIR_OK);
-    }
-}
-
-// ---- Meshes: an octahedron whose triangles are divided, its corners at random distances ----
-
-enum { MOST = 600 };
-typedef struct Ball {
-    double vertex[MOST][3];
-    double triangle[MOST][3];
-    uint32_t vertices, triangles;
-} Ball;
-
-static uint32_t vertex_at(Ball *ball, const double v[3])
-{
-    for (uint32_t n = 0; n < ball->vertices; ++n) {
-        double d = fabs(ball->vertex[n][0] - v[0]) + fabs(ball->vertex[n][1] - v[1]) +
-                   fabs(ball->vertex[n][2] - v[2]);
-        if (d < 1e-9) return n;
-    }
-    assert_true(ball->vertices < MOST);
-    memcpy(ball->vertex[ball->vertices], v, sizeof ball->vertex[0]);
-    return ball->vertices++;
-}
-
-static void divide(Ball *ball, const double a[3], const double b[3], const double c[3], int level)
-{
-    if (level == 0) {
-        double *triangle = ball->triangle[ball->triangles++];
-        assert_true(ball->triangles <= MOST);
-        triangle[0] = vertex_at(ball, a);
-        triangle[1] = vertex_at(ball, b);
-        triangle[2] = vertex_at(ball, c);
-        return;
-    }
-    double ab[3], bc[3], ca[3];
-    for (int k = 0; k < 3; ++k) {
-        ab[k] = a[k] + b[k];
-        bc[k] = b[k] + c[k];
-        ca[k] = c[k] + a[k];
-    }
-    double *const middles[3] = {ab, bc, ca};
-    for (int n = 0; n < 3; ++n) {
-        double *m = middles[n], length = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-        for (int k = 0; k < 3; ++k) m[k] /= length;
-    }
-    divide(ball, a, ab, ca, level - 1);
-    divide(ball, ab, b, bc, level - 1);
-    divide(ball, ca, bc, c, level - 1);
-    divide(ball, ab, bc, ca, level - 1);
-}
-
-static void make_ball(Ball *ball, int level)
-{
-    memset(ball, 0, sizeof *ball);
-    for (int octant = 0; octant < 8; ++octant) {
-        double x[3] = {octant & 1 ? -1 : 1, 0, 0}, y[3] = {0, octant & 2 ? -1 : 1, 0},
-               z[3] = {0, 0, octant & 4 ? -1 : 1};
-        bool turned = ((octant & 1) + (octant >> 1 & 1) + (octant >> 2 & 1)) % 2;
-        divide(ball, x, turned ? z : y, turned ? y : z, level);
-    }
-}
-
-static void set_mesh(WeirScene *scene, const char *list, const Ball *ball)
-{
-    char path[64];
-    snprintf(path, sizeof path, "%s[0].mesh.vertices", list);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, ball->vertex[0], 3 * (size_t)ball->vertices),
-                WEIR_OK);
-    snprintf(path, sizeof path, "%s[0].mesh.triangles", list);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, ball->triangle[0], 3 * (size_t)ball->triangles),
-                WEIR_OK);
-}
-
-static void add_mesh(WeirScene *scene, const char *list, WeirRandom *random)
-{
-    static Ball ball;
-    make_ball(&ball, 1);
-    for (uint32_t n = 0; n < ball.vertices; ++n) {
-        double r = weir_random_range(random, 0.4, 0.7);
-        for (int k = 0; k < 3; ++k) ball.vertex[n][k] *= r;
-    }
-    set_mesh(scene, list, &ball);
 }
 
 // ---- What must hold of a solid's particles ----
@@ -191,7 +98,7 @@ static void random_polygons_are_tight(void **state)
     for (int round = 0; round < 20; ++round) {
         bool around = round % 2;
         WeirScene *scene = start(2);
-        add_polygon(scene, "walls", &random);
+        weir_test_random_polygon(scene, "walls", &random);
         if (around) put_fluid_inside(scene);
         CHECK_SCENE(scene, weir_scene_set_boolean(scene, "walls[0].inside", around), WEIR_OK);
         check_solid(scene, &scene->wall[0].shape, around, 4, 0.82);
@@ -206,7 +113,7 @@ static void random_meshes_are_tight(void **state)
     for (int round = 0; round < 10; ++round) {
         bool around = round % 2;
         WeirScene *scene = start(3);
-        add_mesh(scene, "walls", &random);
+        weir_test_random_mesh(scene, "walls", &random);
         if (around) put_fluid_inside(scene);
         CHECK_SCENE(scene, weir_scene_set_boolean(scene, "walls[0].inside", around), WEIR_OK);
         check_solid(scene, &scene->wall[0].shape, around, 3, 0.95);

@@ -1,0 +1,84 @@
+// Fluid thrown at walls of random shape at three times the Mach number that Weir warns of: nothing gets past the
+// second layer of particles, and all fluid stays in the simulation.
+#include <math.h>
+#include <stdlib.h>
+
+#include "common/random_shapes.h"
+#include "core/scene_shape.h"
+
+static const double sound = 20;
+
+static WeirScene *ball_in_a_shell(uint32_t dimension, double spacing, double radius)
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
+    weir_test_set(scene, "particle_spacing", spacing);
+    weir_test_set(scene, "sound_speed", sound);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0, 0, 0}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "domain.min", (double[]){-2, -2, -2}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "domain.max", (double[]){2, 2, 2}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "fluid[0].ball.center", (double[]){0, 0, 0}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "fluid[0].ball.radius", radius), WEIR_OK);
+    return scene;
+}
+
+// All of it moves along `direction` at `speed`, against the wall around it.
+static void throw(WeirScene *scene, double speed, const double direction[3], double time)
+{
+    double v[3];
+    for (int k = 0; k < 3; ++k) v[k] = speed * direction[k];
+    CHECK_SCENE(scene, weir_scene_set_boolean(scene, "walls[0].inside", true), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "fluid[0].velocity", v, scene->dimension), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, NULL, 0);
+    CHECK_SIM(sim, weir_sim_run_until(sim, time), WEIR_OK);
+    WeirSurface surface;
+    assert_true(weir_surface_start(&surface, &scene->wall[0].shape, scene->dimension));
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION);
+    double spacing = scene->parameters.particle_spacing, deepest = -1e9;
+    for (uint32_t i = 0; i < weir_sim_fluid_slots(sim); ++i) {
+        double point[3] = {0};
+        for (uint32_t k = 0; k < scene->dimension; ++k) point[k] = position[scene->dimension * i + k];
+        deepest = fmax(deepest, weir_surface_distance(&surface, point));
+    }
+    if (deepest > 1.5 * spacing) fail_msg("a particle %g spacings behind the surface", deepest / spacing);
+    assert_int_equal(weir_sim_clock(sim).fluid_particles, weir_sim_fluid_slots(sim));
+    free(position);
+    weir_surface_end(&surface);
+    weir_sim_destroy(sim);
+}
+
+static void polygons_hold(void **state)
+{
+    (void)state;
+    WeirRandom random = {.state = 21};
+    for (int round = 0; round < 10; ++round) {
+        WeirScene *scene = ball_in_a_shell(2, 0.04, 0.25);
+        weir_test_random_polygon(scene, "walls", &random);
+        double angle = weir_random_range(&random, 0, 6.28);
+        throw(scene, 0.3 * sound, (double[3]){cos(angle), sin(angle), 0}, 0.15);
+        weir_scene_destroy(scene);
+    }
+}
+
+static void meshes_hold(void **state)
+{
+    (void)state;
+    WeirRandom random = {.state = 22};
+    for (int round = 0; round < 10; ++round) {
+        WeirScene *scene = ball_in_a_shell(3, 0.08, 0.25);
+        weir_test_random_mesh(scene, "walls", &random);
+        double angle = weir_random_range(&random, 0, 6.28);
+        throw(scene, 0.3 * sound, (double[3]){0.6 * cos(angle), sin(angle) * 0.6, 0.8}, 0.1);
+        weir_scene_destroy(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polygons_hold),
+        cmocka_unit_test(meshes_hold),
+    };
+    return cmocka_run_group_tests_name("leaks", tests, NULL, NULL);
+}
