@@ -5,7 +5,8 @@ fn middle_of_step() -> vec2u {
 
 fn layer_due(n: u32) -> bool {
     let time = middle_of_step();
-    return control.drift_half > 0.0 && control.bad_step == 0xffffffffu && !is_before(time, control.due[n].xy) && !is_before(control.due[n].zw, time);
+    let moves = control.drift_half > 0.0 && control.bad_step == 0xffffffffu;
+    return moves && !is_before(time, control.due[n].xy) && !is_before(control.due[n].zw, time);
 }
 
 fn any_layer_due() -> bool {

@@ -51,10 +51,11 @@ fn coordinate_of(away: vec3f) -> Place {
     return select(Place(0), Place(steps), abs(steps) < Vector(2e9));
 }
 
-// Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the solid
-// at the beginning.
+// Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the
+// solid at the beginning.
 fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
-    return shortest(coordinate_of(state.position.xyz - constants.origin.xyz + rotate(state.orientation, start)) - place);
+    let away = state.position.xyz - constants.origin.xyz + rotate(state.orientation, start);
+    return shortest(coordinate_of(away) - place);
 }
 
 // A way in quanta; across a periodic border the short one.

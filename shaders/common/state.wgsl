@@ -26,7 +26,8 @@ struct Control {
     last_dt: f32,           // s, of the step that kick to finish belong to
     drift_half: f32,        // s, half of the next step's length; 0: it is not taken yet
     max_speed: f32,         // m/s, of the fluid in the last step
-    speed_bits: u32,        // largest speed and acceleration of the step under way: bits of floats >= 0 have their order
+    speed_bits: u32,        // largest speed and acceleration of the step under way, as bits: those of floats >= 0
+                            // have their order
     acceleration_bits: u32,
     error_bits: u32,        // largest density error of the last step
     bad_particles: u32,

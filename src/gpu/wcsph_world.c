@@ -121,20 +121,20 @@ static void write_nozzles(WeirWcsphGpu *solver)
 
 void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver)
 {
-    const WeirBuffers *buffers = &solver->common.buffers;
+    WeirBuffers *buffers = &solver->common.buffers;
     const WeirWorld *world = &solver->world;
     WeirWcsphFlows flows = {0};
     for (uint32_t n = 0; n < world->emitter_count; ++n) flows.emitters[n] = world->emitters[n];
     for (uint32_t n = 0; n < world->drain_count; ++n) flows.drains[n] = world->drains[n];
-    weir_buffers_write((WeirBuffers *)buffers, WEIR_WCSPH_flows, &flows, sizeof flows);
+    weir_buffers_write(buffers, WEIR_WCSPH_flows, &flows, sizeof flows);
     write_nozzles(solver);
     if (world->motion_count > 0)
-        weir_buffers_write((WeirBuffers *)buffers, WEIR_WCSPH_motion_rows, world->motion,
+        weir_buffers_write(buffers, WEIR_WCSPH_motion_rows, world->motion,
                            world->motion_count * sizeof *world->motion);
     if (world->solid_count == 0) return;
-    weir_buffers_write((WeirBuffers *)buffers, WEIR_WCSPH_solid_table, world->solids,
+    weir_buffers_write(buffers, WEIR_WCSPH_solid_table, world->solids,
                        world->solid_count * sizeof *world->solids);
-    weir_buffers_write((WeirBuffers *)buffers, WEIR_WCSPH_blocks, solver->blocks,
+    weir_buffers_write(buffers, WEIR_WCSPH_blocks, solver->blocks,
                        solver->traits.block_count * sizeof *solver->blocks);
 }
 
