@@ -98,7 +98,9 @@ static bool open_simulation(Run *run, int *exit_status)
 
 static bool is_done(const Run *run)
 {
-    if (run->end_time > 0.0) return weir_sim_time(run->sim) >= run->end_time * (1.0 - 1e-9);
+    // As near as weir_sim_step_until() goes.
+    if (run->end_time > 0.0)
+        return weir_sim_time(run->sim) >= run->end_time - 1e-9 * fmax(run->end_time, 1e-3);
     return weir_sim_step_count(run->sim) >= run->steps;
 }
 
@@ -114,17 +116,17 @@ static uint32_t batch_steps(const Run *run, double batch)
     return (uint32_t)fmax(steps, 1.0);
 }
 
-// Takes one batch of about `batch` steps.
+// Takes one batch of at most `batch` steps. How long it takes may not change the steps themselves: only the run's end and
+// the probes' samples shorten one.
 static WeirStatus take_batch(const Run *run, double batch)
 {
+    WeirStatus status;
     if (run->end_time > 0.0) {
-        WeirClock clock = weir_sim_clock(run->sim);
-        double until = fmin(clock.time + batch * clock.time_step, run->end_time);
-        if (run->end_time - until < clock.time_step) until = run->end_time;
-        return run->probes ? weir_probes_run_until(run->probes, run->sim, until)
-                           : weir_sim_run_until(run->sim, until);
+        double next = run->probes ? weir_probes_next_time(run->probes) : INFINITY;
+        status = weir_sim_step_until(run->sim, (uint32_t)batch, fmin(next, run->end_time));
+    } else {
+        status = weir_sim_step(run->sim, batch_steps(run, batch));
     }
-    WeirStatus status = weir_sim_step(run->sim, batch_steps(run, batch));
     if (!status) status = weir_sim_wait(run->sim);
     if (!status) status = weir_sim_poll(run->sim);
     if (!status && run->probes) status = weir_probes_update(run->probes, run->sim);

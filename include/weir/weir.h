@@ -163,6 +163,9 @@ WeirStatus weir_sim_poll(WeirSim *sim);
 // the nearest step with fixed ones. Natively it returns when that is done; in a browser it queues a batch and
 // returns WEIR_PENDING until the time is reached.
 WeirStatus weir_sim_run_until(WeirSim *sim, double time);
+// The same, but at most `steps` steps: how a run is cut into calls changes no step of it. It is over when
+// weir_sim_run_until() would do nothing; weir_sim_wait() comes before the next call.
+WeirStatus weir_sim_step_until(WeirSim *sim, uint32_t steps, double time);
 // Waits until all queued steps are done. In a browser, where nothing may block, returns WEIR_PENDING instead.
 WeirStatus weir_sim_wait(WeirSim *sim);
 // Back to the scene's start.

@@ -10,7 +10,7 @@
 
 enum { DEFAULT_MAX_STEPS = 64 };
 // Steps that weir_sim_run_until() queues between two looks at clock and health.
-static const double MOST_QUEUED = 100.0;
+enum { MOST_QUEUED = 100 };
 static const double largest_mach_number = 0.1, largest_density_error = 0.03;
 static const double default_max_lag = 0.1; // s: a frame later than this is a stall, not a slow frame
 
@@ -215,20 +215,31 @@ static double current_time_step(const WeirSim *sim)
     return adaptive ? sim->health.time_step : (double)sim->parameters.time_step;
 }
 
-WeirStatus weir_sim_run_until(WeirSim *sim, double time)
+// How far before `time` counts as there. Fixed steps end at the one nearest to it.
+static double slack_before(const WeirSim *sim, double time)
+{
+    bool clock = sim->scene->method == WEIR_METHOD_WCSPH;
+    return clock ? 1e-9 * fmax(time, 1e-3) : 0.5 * (double)sim->parameters.time_step;
+}
+
+WeirStatus weir_sim_step_until(WeirSim *sim, uint32_t steps, double time)
 {
     if (sim->status) return sim->status;
+    double left = time - sim->time - slack_before(sim, time);
+    if (!(left > 0.0)) return WEIR_OK;
+    double due = fmax(ceil(left / current_time_step(sim)), 1.0);
     bool clock = sim->scene->method == WEIR_METHOD_WCSPH;
-    // Fixed steps end at the one nearest to `time`.
-    double slack = clock ? 1e-9 * fmax(time, 1e-3) : 0.5 * (double)sim->parameters.time_step;
-    while (sim->time < time - slack) {
-        double due = ceil((time - sim->time - slack) / current_time_step(sim));
-        uint32_t steps = (uint32_t)fmin(fmax(due, 1.0), MOST_QUEUED);
-        WeirStatus status = take_steps(sim, steps, clock ? time : INFINITY);
+    return take_steps(sim, due < steps ? (uint32_t)due : steps, clock ? time : INFINITY);
+}
+
+WeirStatus weir_sim_run_until(WeirSim *sim, double time)
+{
+    while (!sim->status && sim->time < time - slack_before(sim, time)) {
+        WeirStatus status = weir_sim_step_until(sim, MOST_QUEUED, time);
         if (status == WEIR_OK) status = weir_sim_wait(sim);
         if (status) return status;
     }
-    return WEIR_OK;
+    return sim->status;
 }
 
 WeirClock weir_sim_clock(const WeirSim *sim)
