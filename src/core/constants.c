@@ -95,6 +95,22 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
 }
 
+// Sum of V W over the sites of an endless resting lattice, its middle included: 1 but for the kernel's quadrature error.
+static double lattice_filling(const WeirParameters *parameters, uint32_t dimension)
+{
+    double spacing = parameters->particle_spacing, support = parameters->support_radius, sum = 0.0;
+    int reach = (int)fmin(ceil(support / spacing), 100.0), layers = dimension == 3 ? reach : 0;
+    for (int k = -layers; k <= layers; ++k) {
+        for (int j = -reach; j <= reach; ++j) {
+            for (int i = -reach; i <= reach; ++i) {
+                double r = spacing * sqrt((double)(i * i + j * j + k * k));
+                sum += weir_smoothing_value(parameters->kernel, dimension, r, support);
+            }
+        }
+    }
+    return sum * (dimension == 3 ? spacing * spacing * spacing : spacing * spacing);
+}
+
 // Constants of the passes of `wcsph`.
 static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters)
 {
@@ -106,6 +122,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);
     constants->gradient_factor = (float)weir_smoothing_gradient_factor(kernel, dimension, support);
     constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
+    constants->lattice_filling = (float)lattice_filling(parameters, dimension);
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
     constants->speed_limit =

@@ -176,6 +176,9 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
 // good, it would pull at whatever it meets.
 static const float spray_limit = 0.5f;
+// Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
+// volume_time h / c0.
+static const float full_support = 0.98f, volume_time = 300.0f;
 static const float barrier_range = 0.75f, barrier_strength = 4.0f, barrier_damping = 0.125f;
 
 // The sums of `forces`, without their factors.
@@ -188,6 +191,7 @@ typedef struct ForceSums {
     Vector friction;   // the same between fluid and no-slip solids
     Vector barrier;    // sum max(0, r0 / r - 1) x / r between fluid and solid
     WeirLanes surface; // sum 1 / rho_j F^ r^2
+    WeirLanes filling; // sum 1 / rho_j W^
 } ForceSums;
 
 // `solids`: the lanes are solid particles, on which only the fluid acts.
@@ -230,7 +234,8 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
                 add_scaled(&sums.barrier, push * (approach + 1.0f) / r, x, variant);
             }
             if (solids) continue;
-            WeirLanes near = lanes_power4(kernel_shape(s, variant) * inverse_spacing);
+            WeirLanes shape = kernel_shape(s, variant), near = lanes_power4(shape * inverse_spacing);
+            sums.filling += shape * data->inverse_density[j];
             add_scaled(&sums.clustering, slope * near, x, variant);
             sums.surface += slope * r2;
         }
@@ -339,6 +344,11 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
             finish_acceleration(data, &sums, lane, i, inside);
             add_body_forces(data, i);
             finish_shift(data, &sums, lane, i, inside);
+            if (full * sums.surface[lane] >= full_support * (float)constants->dimension) {
+                float filling = constants->particle_mass * constants->kernel_factor * sums.filling[lane];
+                data->shift_rate[i] += (filling - constants->lattice_filling) * constants->sound_speed /
+                                       (volume_time * constants->smoothing_length);
+            }
             bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;
             float lack = -data->excess[i];
             if (spray && lack > 0.0f)
