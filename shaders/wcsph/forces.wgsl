@@ -24,12 +24,15 @@ struct Sums {
     friction: Vector,   // of v, between fluid and no-slip solids
     clustering: Vector, // of (W / W(spacing))^4
     surface: f32,
+    filling: f32,       // of W
 }
 
 // A last barrier keeps fast fluid out of walls, and spray forgets tension: docs/wcsph.md.
 const BARRIER_RANGE = 0.75; // spacings
 const BARRIER_STRENGTH = 4.0;
 const BARRIER_DAMPING = 0.125;
+const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
+const VOLUME_TIME = 300.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk
 
 // 1 if friction acts on it.
@@ -68,7 +71,8 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
             if BRANCH_FREE || (acts && r_squared < support * support) {
                 let neighbor = sorted_motion[j];
                 let s = sqrt(r_squared) * constants.inverse_support;
-                let slope = select(0.0, kernel_slope(s) / (parameters.rest_density + neighbor.w), acts);
+                let inverse_density = 1.0 / (parameters.rest_density + neighbor.w);
+                let slope = select(0.0, kernel_slope(s) * inverse_density, acts);
                 var pressure = pressure_of(neighbor.w);
                 if TAIT && !fluid {
                     pressure = linear_pressure(neighbor.w);
@@ -97,9 +101,10 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                     along += barrier_scale * push * (1.0 + max(-approach, 0.0)) / r;
                 }
                 sums.pressure += along * offset;
+                let shape = kernel_shape(s);
+                sums.filling += shape * inverse_density;
                 if SHIFTING {
-                    let near = power4(kernel_shape(s) * inverse_spacing_value);
-                    sums.clustering += (slope * near) * offset;
+                    sums.clustering += (slope * power4(shape * inverse_spacing_value)) * offset;
                 }
                 sums.surface += slope * r_squared;
             }
@@ -282,6 +287,11 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     var shift = vec4f(0.0);
     if SHIFTING && inside {
         shift = shift_of(sums);
+    }
+    if full * sums.surface >= FULL_SUPPORT * f32(DIMENSION) {
+        let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
+        shift.w += (filling - constants.lattice_filling) * constants.sound_speed
+            / (VOLUME_TIME * constants.smoothing_length);
     }
     let lack = -own_motion.w;
     if full * sums.surface < SPRAY_LIMIT * f32(DIMENSION) && lack > 0.0 {

@@ -15,16 +15,19 @@ static WeirScene *ball_in_a_shell(uint32_t dimension, double spacing, double rad
     CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
     weir_test_set(scene, "particle_spacing", spacing);
     weir_test_set(scene, "sound_speed", sound);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0, 0, 0}, dimension), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "domain.min", (double[]){-2, -2, -2}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0, 0, 0}, dimension),
+                WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "domain.min", (double[]){-2, -2, -2}, dimension),
+                WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_numbers(scene, "domain.max", (double[]){2, 2, 2}, dimension), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "fluid[0].ball.center", (double[]){0, 0, 0}, dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "fluid[0].ball.center", (double[]){0, 0, 0}, dimension),
+                WEIR_OK);
     CHECK_SCENE(scene, weir_scene_set_number(scene, "fluid[0].ball.radius", radius), WEIR_OK);
     return scene;
 }
 
 // All of it moves along `direction` at `speed`, against the wall around it.
-static void throw(WeirScene *scene, double speed, const double direction[3], double time)
+static void throw(WeirScene * scene, double speed, const double direction[3], double time)
 {
     double v[3];
     for (int k = 0; k < 3; ++k) v[k] = speed * direction[k];
