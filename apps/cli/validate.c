@@ -131,17 +131,19 @@ static bool validate_case(Validate *command, uint32_t index)
 {
     WeirValidation *v = weir_validation_create(index, command->resolution);
     WeirValidateRun runs[64] = {{0}};
+    char told[512] = "";
     if (!v) {
         fprintf(stderr, "weir validate: memory ran out\n");
         return false;
     }
     double start = weir_wall_time();
     for (uint32_t run = 0; run < weir_validation_run_count(v) && run < 64 && !stop_requested; ++run) {
-        uint32_t before = (uint32_t)strlen(weir_validation_error(v));
+        char before[sizeof told];
+        snprintf(before, sizeof before, "%s", weir_validation_error(v));
         simulate(command, v, run, &runs[run]);
-        if (strlen(weir_validation_error(v)) != before && !command->options.quiet)
-            fprintf(stderr, "weir validate: %s: %s\n", weir_validation_case(v)->name,
-                    weir_validation_error(v));
+        snprintf(told, sizeof told, "%s", weir_validation_error(v));
+        if (strcmp(told, before) != 0 && !command->options.quiet)
+            fprintf(stderr, "weir validate: %s: %s\n", weir_validation_case(v)->name, told);
     }
     if (!weir_validation_judge(v)) command->failed = true;
     bool written = weir_validate_add_case(&command->report, v, runs, weir_wall_time() - start);
