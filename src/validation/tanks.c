@@ -253,8 +253,9 @@ static void sample_splash(WeirValidation *v, const WeirSample *sample)
     const Splash *splash = v->data;
     double area = 0.0;
     for (int k = 0; k < PLACES; ++k) {
-        // Clear of the walls, where the probe's sum lacks fluid: the middle 70 % stand for the whole.
-        double x = splash_width * (0.15 + 0.7 * (k + 0.5) / PLACES);
+        // A support radius clear of the walls, where the probe's sum lacks fluid; the rest stands for the whole.
+        double clear = sample->parameters->support_radius;
+        double x = clear + (splash_width - 2.0 * clear) * (k + 0.5) / PLACES;
         area += weir_measure_height(sample, x, 0.0) * splash_width / PLACES;
     }
     weir_curve_push(v, splash->density, sample->time, weir_fluid_sums(sample).density_deviation);
