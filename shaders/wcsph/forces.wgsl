@@ -28,7 +28,7 @@ struct Sums {
 }
 
 // A last barrier keeps fast fluid out of walls, and spray forgets tension: docs/wcsph.md.
-const BARRIER_RANGE = 0.75; // spacings
+const BARRIER_RANGE = 0.85; // spacings
 const BARRIER_STRENGTH = 4.0;
 const BARRIER_DAMPING = 0.125;
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk

@@ -54,7 +54,7 @@ static void make_mueller(WeirConstants *constants, const WeirScene *scene, const
 }
 
 // Coordinates and cells of `wcsph`. The grid reaches two support radii beyond the domain, for walls; not along
-// periodic axes. Cells are one support radius high and deep and a quarter as wide, and grow where they would
+// periodic axes. Cells are one support radius high and deep and an eighth as wide, and grow where they would
 // outnumber the particles 4 to 1.
 static void make_coordinates(WeirConstants *constants, const WeirScene *scene, double support_radius)
 {
@@ -78,7 +78,7 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
         double period = scene->domain_max[axis] - scene->domain_min[axis];
         *periods[axis] = scene->periodic[axis] ? (uint32_t)floor(period / quantum + 0.5) : 0;
     }
-    uint32_t column = bits - 2, row = bits;
+    uint32_t column = bits - 3, row = bits;
     double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0);
     for (;;) {
         double columns = floor(extent[0] / quantum / (double)(1u << column)) + 1.0;

@@ -164,8 +164,8 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
 #define APPEND(...)         length += (size_t)snprintf(settings + length, WEIR_SETTINGS_LENGTH - length, __VA_ARGS__)
 #define FLAG(name, value)   APPEND("const " name " = %s;\n", (value) ? "true" : "false")
 #define NUMBER(name, value) APPEND("const " name " = %uu;\n", value)
-    FLAG("BRANCH_FREE",
-         true); // false: skip what lies beyond the support; the prototype gained 3 to 9 % without
+    // false: skip what lies beyond the support. Measured on an H100: 1.10x without the branch in 2D, 1.20x with it in 3D.
+    FLAG("BRANCH_FREE", traits->dimension == 2);
     NUMBER("KERNEL", parameters->kernel);
     FLAG("TAIT", parameters->equation_of_state == WEIR_EQUATION_TAIT);
     FLAG("DIFFUSION", parameters->density_diffusion > 0.0f);

@@ -170,7 +170,7 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 
 // ---- forces ----
 
-// A last barrier keeps fast fluid out of walls: from three quarters of a spacing on, where pressure lets nothing come,
+// A last barrier keeps fast fluid out of walls: nearer than 0.85 spacings, where fluid at rest hardly comes,
 // solid particles repel the fluid by barrier_strength c0^2 / spacing (r0 / r - 1), damped for what approaches (n along x_ij,
 // pointing away from the solid), so that a splash at half the speed of sound leaks nothing.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
@@ -179,7 +179,7 @@ static const float spray_limit = 0.5f;
 // Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 300.0f;
-static const float barrier_range = 0.75f, barrier_strength = 4.0f, barrier_damping = 0.125f;
+static const float barrier_range = 0.85f, barrier_strength = 4.0f, barrier_damping = 0.125f;
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
