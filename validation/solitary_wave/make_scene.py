@@ -33,7 +33,7 @@ def main():
     rows = [[time, round(displacement(time) - start, 7), 0, 0] for time in times]
     parts = {
         "parameters": {"particle_spacing": DEPTH / 40, "rest_density": 1000, "viscosity": 0.001,
-                       "gravity": [0, -GRAVITY], "expected_speed": 1.75},
+                       "gravity": [0, -GRAVITY]},
         "domain": {"min": [-0.3, 0], "max": [5, 0.5], "open": "+y", "free_slip": True},
         "fluid": [{"box": {"min": [0, 0], "max": [5, DEPTH]}}],
         "probes": [{"name": f"x = {x} m", "kind": "height", "position": [x, 0], "rate": 100} for x in (2, 2.75, 3.5)],
