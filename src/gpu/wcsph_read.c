@@ -120,7 +120,7 @@ typedef struct View {
     const float *motion;
     const uint32_t *id;
     const float *kicked; // acceleration, pressure
-    const WeirSolidState *solids;
+    const char *solids; // WeirSolidState, on no boundary of 16 bytes: to be copied
     const float *sums; // 16 per block
     const WeirWcsphControl *control;
 } View;
@@ -216,8 +216,8 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, const void *copy, We
     bool bad = view.control->bad_step != UINT32_MAX;
     if (bad && !solver->restored) {
         // Nothing was evaluated: copy again what was good.
-        const WeirSolidState *saved = view.solids + 2 * (size_t)solver->traits.solid_count;
-        memcpy(solver->host_solids, saved, solver->traits.solid_count * sizeof *saved);
+        size_t bytes = solver->traits.solid_count * sizeof *solver->host_solids;
+        memcpy(solver->host_solids, view.solids + 2 * bytes, bytes);
         solver->blown_up = true;
         return WEIR_PENDING;
     }
