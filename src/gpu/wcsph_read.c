@@ -120,8 +120,8 @@ typedef struct View {
     const float *motion;
     const uint32_t *id;
     const float *kicked; // acceleration, pressure
-    const char *solids; // WeirSolidState, on no boundary of 16 bytes: to be copied
-    const float *sums; // 16 per block
+    const char *solids;  // WeirSolidState, on no boundary of 16 bytes: to be copied
+    const float *sums;   // 16 per block
     const WeirWcsphControl *control;
 } View;
 
