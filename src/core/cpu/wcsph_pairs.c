@@ -172,7 +172,7 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 
 // A last barrier keeps fast fluid out of walls: nearer than 0.85 spacings, where fluid at rest hardly comes,
 // solid particles repel the fluid by barrier_strength c0^2 / spacing (r0 / r - 1), damped for what approaches (n along x_ij,
-// pointing away from the solid), so that a splash at half the speed of sound leaks nothing.
+// pointing away from the solid), so that a splash at 0.4 of the speed of sound leaks nothing.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
 // good, it would pull at whatever it meets.
 static const float spray_limit = 0.5f;
