@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 resolution=${1:-normal}
-shift || true
+[[ $# -eq 0 ]] || shift
 out=build/validation
 mkdir -p "$out"
 status=0

@@ -308,11 +308,11 @@ static WeirStatus blown_up(WeirSim *sim)
     const float *place = health->first_bad_position;
     return sim->status =
                weir_fail(&sim->error, WEIR_ERROR_UNSTABLE,
-                         "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than the "
-                         "speed of sound, "
+                         "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than "
+                         "twice the speed of sound, "
                          "%.3g m/s, or not finite. %s",
                          (unsigned long long)(sim->steps_given + health->first_bad_step),
-                         health->first_bad_id, place[0], place[1], place[2], sim->constants.sound_speed,
+                         health->first_bad_id, place[0], place[1], place[2], sim->constants.speed_limit,
                          sim->parameters.stepping ? "Use stepping adaptive, or a smaller time_step"
                                                   : "Lower courant, or raise expected_speed or sound_speed");
 }

@@ -1,4 +1,5 @@
 #include "core/solids.h"
+#include "core/exact_math.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,27 +22,13 @@ static void rotate(const float q[4], const float v[3], float result[3])
     for (int axis = 0; axis < 3; ++axis) result[axis] = v[axis] + 2.0f * (q[3] * once[axis] + twice[axis]);
 }
 
-// Sine and cosine by their series after reduction to [-pi/4, pi/4]: libm's differ in the last bit between targets.
-static void sine_cosine(double angle, double *sine, double *cosine)
-{
-    static const double half_pi = 1.57079632679489661923;
-    double turns = floor(angle / half_pi + 0.5);
-    double x = angle - turns * half_pi, x2 = x * x;
-    double s =
-        x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72 * (1 - x2 / 110 * (1 - x2 / 156))))));
-    double c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56 * (1 - x2 / 90 * (1 - x2 / 132)))));
-    int quarter = (int)(turns - 4.0 * floor(turns / 4.0));
-    *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
-    *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
-}
-
 // Unit quaternion of a rotation given as angle times axis.
 static void rotation_quaternion(const float rotation[3], float q[4])
 {
     double angle2 = 0.0, sine, cosine;
     for (int axis = 0; axis < 3; ++axis) angle2 += (double)rotation[axis] * rotation[axis];
     double angle = sqrt(angle2);
-    sine_cosine(0.5 * angle, &sine, &cosine);
+    weir_sine_cosine(0.5 * angle, &sine, &cosine);
     double scale = angle > 1e-12 ? sine / angle : 0.5;
     for (int axis = 0; axis < 3; ++axis) q[axis] = (float)(scale * rotation[axis]);
     q[3] = (float)cosine;
