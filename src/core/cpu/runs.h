@@ -20,8 +20,13 @@ typedef struct WeirRun {
     int32_t shift[3]; // to add to a candidate's coordinates
 } WeirRun;
 
+typedef struct WeirBounds {
+    int32_t low[3], high[3];
+} WeirBounds;
+
 typedef struct WeirLaneGroup {
     uint32_t lanes, run_count;
+    WeirBounds bounds; // of the lanes
     WeirRun run[WEIR_MAX_RUNS];
 } WeirLaneGroup;
 
@@ -51,18 +56,15 @@ static inline double weir_row_distance(int32_t low, int32_t high, uint32_t row, 
 {
     double begin = row == 0 ? -2e9 : (double)row * (double)(1u << shift);
     double end = row + 1 == rows ? 4e9 : ((double)row + 1.0) * (double)(1u << shift);
-    return fmax(0.0, fmax((double)low - end, begin - (double)high));
+    double above = (double)low - end, below = begin - (double)high, distance = above > below ? above : below;
+    return distance > 0.0 ? distance : 0.0; // fmax() would be a call
 }
 
-typedef struct WeirBounds {
-    int32_t low[3], high[3];
-} WeirBounds;
-
 static inline void weir_add_runs(const WeirConstants *constants, const uint32_t *cell_start,
-                                 const WeirBounds *bounds, WeirLaneGroup *group,
-                                 const WeirSegment *row_segment, uint32_t row,
+                                 WeirLaneGroup *group, const WeirSegment *row_segment, uint32_t row,
                                  const WeirSegment *layer_segment, uint32_t layer)
 {
+    const WeirBounds *bounds = &group->bounds;
     double support = (double)(1u << constants->coordinate_bits);
     double dy = weir_row_distance(bounds->low[1] - row_segment->shift, bounds->high[1] - row_segment->shift,
                                   row, constants->row_shift, constants->cell_rows);
@@ -86,8 +88,9 @@ static inline void weir_add_runs(const WeirConstants *constants, const uint32_t 
 }
 
 static inline void weir_find_runs(const WeirConstants *constants, const uint32_t *cell_start,
-                                  const WeirBounds *bounds, WeirLaneGroup *group)
+                                  WeirLaneGroup *group)
 {
+    const WeirBounds *bounds = &group->bounds;
     int32_t support = (int32_t)(1u << constants->coordinate_bits);
     WeirSegment rows[3], layers[3] = {{0, 0, 0}};
     uint32_t row_segments =
@@ -106,7 +109,7 @@ static inline void weir_find_runs(const WeirConstants *constants, const uint32_t
                 uint32_t last_row = weir_grid_cell(rows[b].high, constants->row_shift, constants->cell_rows);
                 uint32_t row = weir_grid_cell(rows[b].low, constants->row_shift, constants->cell_rows);
                 for (; row <= last_row; ++row)
-                    weir_add_runs(constants, cell_start, bounds, group, &rows[b], row, &layers[a], layer);
+                    weir_add_runs(constants, cell_start, group, &rows[b], row, &layers[a], layer);
             }
         }
     }
@@ -114,26 +117,25 @@ static inline void weir_find_runs(const WeirConstants *constants, const uint32_t
 
 // Takes particles from `begin` on, as long as they share a row and lie close enough that one set of runs serves
 // them all. The runs are found by weir_find_runs().
-static inline WeirBounds weir_take_lanes(const WeirConstants *constants, const int32_t *const x[3],
-                                         uint32_t begin, uint32_t end, WeirLaneGroup *group)
+static inline void weir_take_lanes(const WeirConstants *constants, const int32_t *const x[3], uint32_t begin,
+                                   uint32_t end, WeirLaneGroup *group)
 {
     uint32_t most = end - begin < WEIR_LANES ? end - begin : WEIR_LANES;
     int32_t widest = (int32_t)(1u << constants->coordinate_bits) * 3;
-    WeirBounds bounds;
-    for (int axis = 0; axis < 3; ++axis) bounds.low[axis] = bounds.high[axis] = x[axis][begin];
+    WeirBounds *bounds = &group->bounds;
+    for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
     uint32_t row = weir_grid_cell(x[1][begin], constants->row_shift, constants->cell_rows);
     uint32_t layer = weir_grid_cell(x[2][begin], constants->row_shift, constants->cell_layers);
     for (group->lanes = 1; group->lanes < most; ++group->lanes) {
         uint32_t i = begin + group->lanes;
         if (weir_grid_cell(x[1][i], constants->row_shift, constants->cell_rows) != row ||
             weir_grid_cell(x[2][i], constants->row_shift, constants->cell_layers) != layer ||
-            x[0][i] - bounds.low[0] > widest) {
+            x[0][i] - bounds->low[0] > widest) {
             break;
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (x[axis][i] < bounds.low[axis]) bounds.low[axis] = x[axis][i];
-            if (x[axis][i] > bounds.high[axis]) bounds.high[axis] = x[axis][i];
+            if (x[axis][i] < bounds->low[axis]) bounds->low[axis] = x[axis][i];
+            if (x[axis][i] > bounds->high[axis]) bounds->high[axis] = x[axis][i];
         }
     }
-    return bounds;
 }

@@ -130,7 +130,8 @@ static bool any_solid(const float *is_fluid, uint32_t begin, uint32_t count)
 INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                         Variant variant)
 {
-    float inverse_support = data->constants->inverse_support;
+    const WeirConstants *constants = data->constants;
+    float inverse_support = constants->inverse_support;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     float rest_density = data->parameters->rest_density;
     WeirLanes weight = {0}, pressure = {0};
@@ -194,50 +195,61 @@ typedef struct ForceSums {
     WeirLanes filling; // sum 1 / rho_j W^
 } ForceSums;
 
-// `solids`: the lanes are solid particles, on which only the fluid acts.
+INLINE void add_barrier(const WeirWcsphData *data, Vector *sum, WeirLanes distance, Vector x, Vector v,
+                        Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    float inverse_sound = 1.0f / constants->sound_speed;
+    float range = barrier_range * data->parameters->particle_spacing * constants->inverse_quantum;
+    WeirLanes r = weir_lanes_max(distance, weir_lanes_fill(range / 3.0f));
+    WeirLanes push = weir_lanes_max(range / r - 1.0f, weir_lanes_fill(0.0f));
+    WeirLanes approach =
+        weir_lanes_max(dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
+    add_scaled(sum, push * (approach + 1.0f) / r, x, variant);
+}
+
+// `solids`: the lanes are solid particles, on which only the fluid acts. In a group of both the sums of solid lanes are
+// nobody's.
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                             Variant variant, bool solids)
 {
     const WeirConstants *constants = data->constants;
     float inverse_support = constants->inverse_support, inverse_spacing = 1.0f / constants->spacing_value;
     float h = constants->smoothing_length * constants->inverse_quantum, soft = 1e-4f * h * h;
-    float inverse_sound = 1.0f / constants->sound_speed;
-    float barrier = barrier_range * data->parameters->particle_spacing * constants->inverse_quantum;
+    bool viscous = constants->viscosity_factor != 0.0f, laminar = constants->laminar_factor != 0.0f;
+    bool clustering = data->parameters->shifting != 0.0f;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
-    WeirLanes stick_i = weir_lanes_load(data->stick + begin),
-              fluid_i = weir_lanes_load(data->is_fluid + begin);
+    WeirLanes stick = weir_lanes_load(data->stick + begin);
     Vector vi = load((const float *const *)data->seen_velocity, begin, variant);
     ForceSums sums = {0};
     for (uint32_t n = 0; n < group->run_count; ++n) {
         WeirMask place[3];
         load_place(data, begin, &group->run[n], place);
         for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
-            if (solids && data->is_fluid[j] == 0.0f) continue;
+            bool fluid = data->is_fluid[j] != 0.0f;
+            if (solids && !fluid) continue;
             Vector x = offset_to(data, place, j, variant);
             WeirLanes r2 = dot(x, x, variant);
             if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
-            WeirLanes s = weir_lanes_sqrt(r2) * inverse_support;
+            WeirLanes r = weir_lanes_sqrt(r2), s = r * inverse_support;
             WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
             Vector v = {vi.x - data->seen_velocity[0][j], vi.y - data->seen_velocity[1][j], {0}};
             if (variant.three_dimensional) v.z = vi.z - data->seen_velocity[2][j];
             add_scaled(&sums.pressure, slope * data->pressure[j], x, variant);
             add_scaled(&sums.gradient, slope, x, variant);
-            WeirLanes approach = dot(v, x, variant) / (r2 + soft) * slope * (fluid_i * data->is_fluid[j]);
-            add_scaled(&sums.viscous, approach, x, variant);
-            add_scaled(&sums.laminar, slope * (fluid_i * data->is_fluid[j]), v, variant);
-            if (solids || data->is_fluid[j] == 0.0f) {
-                add_scaled(&sums.friction, slope * (stick_i * data->stick[j]), v, variant);
-                WeirLanes r = weir_lanes_max(weir_lanes_sqrt(r2), weir_lanes_fill(barrier / 3.0f));
-                WeirLanes push = weir_lanes_max(barrier / r - 1.0f, weir_lanes_fill(0.0f));
-                WeirLanes approach = weir_lanes_max(
-                    dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
-                add_scaled(&sums.barrier, push * (approach + 1.0f) / r, x, variant);
+            if (fluid && !solids) {
+                if (viscous) add_scaled(&sums.viscous, dot(v, x, variant) / (r2 + soft) * slope, x, variant);
+                if (laminar) add_scaled(&sums.laminar, slope, v, variant);
+            } else {
+                add_scaled(&sums.friction, slope * (stick * data->stick[j]), v, variant);
+                add_barrier(data, &sums.barrier, r, x, v, variant);
             }
             if (solids) continue;
-            WeirLanes shape = kernel_shape(s, variant), near = lanes_power4(shape * inverse_spacing);
+            WeirLanes shape = kernel_shape(s, variant);
             sums.filling += shape * data->inverse_density[j];
-            add_scaled(&sums.clustering, slope * near, x, variant);
             sums.surface += slope * r2;
+            if (clustering)
+                add_scaled(&sums.clustering, slope * lanes_power4(shape * inverse_spacing), x, variant);
         }
     }
     return sums;
@@ -411,39 +423,60 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
     }
 }
 
-// ---- The passes: one copy per dimension and kind of kernel ----
+// ---- The passes: one copy of each per dimension and kind of kernel ----
 
-#define PASS(name, wanted, flag)                                                                             \
-    static void name(const WeirWcsphData *data, uint32_t begin, uint32_t end)                                \
-    {                                                                                                        \
-        bool deep = data->constants->dimension == 3;                                                         \
-        uint32_t kernel = data->parameters->kernel;                                                          \
-        for (uint32_t i = begin; i < end;) {                                                                 \
-            WeirLaneGroup group;                                                                             \
-            WeirBounds bounds = weir_take_lanes(data->constants, data->x, i, end, &group);                   \
-            if (wanted(data->flag, i, group.lanes)) {                                                        \
-                weir_find_runs(data->constants, data->cell_start, &bounds, &group);                          \
-                if (kernel != WEIR_KERNEL_WENDLAND) {                                                        \
-                    name##_group(data, &group, i, (Variant){deep, kernel});                                  \
-                } else if (deep) {                                                                           \
-                    name##_group(data, &group, i, (Variant){true, WEIR_KERNEL_WENDLAND});                    \
-                } else {                                                                                     \
-                    name##_group(data, &group, i, (Variant){false, WEIR_KERNEL_WENDLAND});                   \
-                }                                                                                            \
-            }                                                                                                \
-            i += group.lanes;                                                                                \
-        }                                                                                                    \
-    }
+typedef enum Pass { WALLS, FORCES, CONTINUITY } Pass;
 
-// Fluid lanes always want their forces, solid ones where somebody asks.
-static bool wants_forces(const WeirWcsphData *data, uint32_t begin, uint32_t count)
+// Does any of the lanes take part? Solid ones want their forces where somebody asks.
+INLINE bool takes_part(Pass pass, const WeirWcsphData *data, uint32_t begin, uint32_t count)
 {
-    return any_set(data->is_fluid, begin, count) || any_set(data->needs_force, begin, count);
+    if (pass == WALLS) return any_solid(data->is_fluid, begin, count);
+    return any_set(data->is_fluid, begin, count) ||
+           (pass == FORCES && any_set(data->needs_force, begin, count));
 }
-#define WANTS_FORCES(flag, begin, count) wants_forces(data, begin, count)
 
-PASS(walls, any_solid, is_fluid)
-PASS(forces, WANTS_FORCES, is_fluid)
-PASS(continuity, any_set, is_fluid)
+INLINE void pass_group(Pass pass, const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                       Variant variant)
+{
+    if (pass == WALLS) walls_group(data, group, begin, variant);
+    if (pass == FORCES) forces_group(data, group, begin, variant);
+    if (pass == CONTINUITY) continuity_group(data, group, begin, variant);
+}
+
+INLINE void run_pass(Pass pass, const WeirWcsphData *data, uint32_t begin, uint32_t end)
+{
+    bool deep = data->constants->dimension == 3;
+    uint32_t kernel = data->parameters->kernel;
+    for (uint32_t i = begin; i < end;) {
+        WeirLaneGroup group;
+        weir_take_lanes(data->constants, data->x, i, end, &group);
+        if (takes_part(pass, data, i, group.lanes)) {
+            weir_find_runs(data->constants, data->cell_start, &group);
+            if (kernel != WEIR_KERNEL_WENDLAND) {
+                pass_group(pass, data, &group, i, (Variant){deep, kernel});
+            } else if (deep) {
+                pass_group(pass, data, &group, i, (Variant){true, WEIR_KERNEL_WENDLAND});
+            } else {
+                pass_group(pass, data, &group, i, (Variant){false, WEIR_KERNEL_WENDLAND});
+            }
+        }
+        i += group.lanes;
+    }
+}
+
+static void walls(const WeirWcsphData *data, uint32_t begin, uint32_t end)
+{
+    run_pass(WALLS, data, begin, end);
+}
+
+static void forces(const WeirWcsphData *data, uint32_t begin, uint32_t end)
+{
+    run_pass(FORCES, data, begin, end);
+}
+
+static void continuity(const WeirWcsphData *data, uint32_t begin, uint32_t end)
+{
+    run_pass(CONTINUITY, data, begin, end);
+}
 
 const WeirWcsphPasses WEIR_WCSPH_PASSES = {WEIR_SIMD_NAME, walls, forces, continuity};

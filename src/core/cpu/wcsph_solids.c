@@ -153,8 +153,8 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
     float c0 = constants->sound_speed, stiffness = 0.25f * mass * c0 * c0 / (spacing * spacing);
     float damping = 0.5f * mass * c0 / spacing;
     WeirLaneGroup group;
-    WeirBounds bounds = weir_take_lanes(constants, data->x, i, i + 1, &group);
-    weir_find_runs(constants, data->cell_start, &bounds, &group);
+    weir_take_lanes(constants, data->x, i, i + 1, &group);
+    weir_find_runs(constants, data->cell_start, &group);
     memset(force, 0, 3 * sizeof *force);
     for (uint32_t n = 0; n < group.run_count; ++n) {
         for (uint32_t j = group.run[n].begin; j < group.run[n].end; ++j) {
