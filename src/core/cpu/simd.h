@@ -30,7 +30,8 @@ enum { WEIR_LANES = 4 };
 typedef float WeirLanes __attribute__((vector_size(4 * WEIR_LANES)));
 typedef int32_t WeirMask __attribute__((vector_size(4 * WEIR_LANES)));
 
-// Beside these: weir_lanes_sqrt, weir_lanes_max and weir_lanes_any_below (a < b in at least one lane), per target.
+// Beside these: weir_lanes_sqrt, weir_lanes_max and weir_lanes_any_below (a < b in at least one lane), per target;
+// weir_lanes_store_where stores the lanes whose mask is set.
 static inline WeirLanes weir_lanes_load(const float *values)
 {
     WeirLanes lanes;
@@ -41,6 +42,57 @@ static inline WeirLanes weir_lanes_load(const float *values)
 static inline WeirLanes weir_lanes_fill(float value)
 {
     return value - (WeirLanes){0};
+}
+
+static inline WeirMask weir_mask_load(const int32_t *values)
+{
+    WeirMask mask;
+    memcpy(&mask, values, sizeof mask);
+    return mask;
+}
+
+static inline void weir_lanes_store(float *values, WeirLanes a)
+{
+    memcpy(values, &a, sizeof a);
+}
+
+static inline void weir_mask_store(int32_t *values, WeirMask a)
+{
+    memcpy(values, &a, sizeof a);
+}
+
+// Lanes below `count` set.
+static inline WeirMask weir_mask_first(uint32_t count)
+{
+    static const int32_t set[32] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    return weir_mask_load(set + 16 - (count < WEIR_LANES ? count : WEIR_LANES));
+}
+
+static inline WeirLanes weir_lanes_abs(WeirLanes a)
+{
+    return (WeirLanes)((WeirMask)a & 0x7FFFFFFF);
+}
+
+// To the nearest whole number, ties to even: adding 2^23 leaves no place for a fraction.
+static inline WeirLanes weir_lanes_round(WeirLanes a)
+{
+    const WeirLanes large = weir_lanes_fill(8388608.0f), size = weir_lanes_abs(a);
+    WeirLanes rounded = (size + large) - large;
+    WeirMask fraction = (WeirMask)(size < large), sign = (WeirMask)a & ~0x7FFFFFFF;
+    return (WeirLanes)((((WeirMask)rounded & fraction) | ((WeirMask)size & ~fraction)) | sign);
+}
+
+static inline bool weir_mask_any(WeirMask mask)
+{
+    int32_t any = 0;
+    for (int lane = 0; lane < WEIR_LANES; ++lane) any |= mask[lane];
+    return any != 0;
+}
+
+// a where the mask is set, b elsewhere.
+static inline WeirLanes weir_lanes_select(WeirMask mask, WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)((mask & (WeirMask)a) | (~mask & (WeirMask)b));
 }
 
 #if defined(__AVX512F__)
@@ -56,6 +108,11 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0;
+}
+static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
+{
+    __mmask16 set = _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask);
+    _mm512_mask_storeu_ps(values, set, (__m512)a);
 }
 #elif defined(__AVX2__)
 #include <immintrin.h>
@@ -118,5 +175,14 @@ static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
     int32_t any = 0;
     for (int lane = 0; lane < WEIR_LANES; ++lane) any |= below[lane];
     return any != 0;
+}
+#endif
+
+#if !defined(__AVX512F__)
+static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
+{
+    for (int lane = 0; lane < WEIR_LANES; ++lane) {
+        if (mask[lane]) values[lane] = a[lane];
+    }
 }
 #endif

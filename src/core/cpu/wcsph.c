@@ -61,60 +61,72 @@ static void scan(WeirWcsph *solver)
 }
 
 // p of an excess density, docs/wcsph.md.
-static float equation_of_state(const WeirWcsph *solver, float excess)
+static inline float equation_of_state(const WeirWcsph *solver, bool linear, float excess)
 {
     const WeirParameters *parameters = &solver->parameters;
     float c2 = solver->constants.sound_speed * solver->constants.sound_speed, rest = parameters->rest_density;
-    if (parameters->equation_of_state == WEIR_EQUATION_LINEAR)
-        return c2 * excess + parameters->background_pressure;
+    if (linear) return c2 * excess + parameters->background_pressure;
     float ratio = 1.0f + excess / rest, cube = ratio * ratio * ratio;
     return rest * c2 / 7.0f * (cube * cube * ratio - 1.0f) + parameters->background_pressure;
 }
 
-static void copy_particle(const WeirWcsphParticles *to, uint32_t k, const WeirWcsphParticles *from,
-                          uint32_t i)
+// Copies 32-bit values of any kind to sorted places [begin, end). The sorted arrays are others than the state's.
+static inline void gather(void *restrict to, const void *restrict from, const uint32_t *restrict slot,
+                          uint32_t begin, uint32_t end)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        to->x[axis][k] = from->x[axis][i];
-        to->velocity[axis][k] = from->velocity[axis][i];
-    }
-    to->excess[k] = from->excess[i];
-    to->rate[k] = from->rate[i];
-    to->id[k] = from->id[i];
-    to->group[k] = from->group[i];
+    uint32_t *restrict sorted = to;
+    const uint32_t *restrict state = from;
+    for (uint32_t k = begin; k < end; ++k) sorted[k] = state[slot[k]];
 }
 
-// What follows from the particle alone and the sums need.
-static void prepare(WeirWcsph *solver, uint32_t k)
+static void gather_particles(const WeirWcsph *solver, uint32_t begin, uint32_t end)
+{
+    const WeirWcsphParticles *to = &solver->sorted, *from = &solver->state;
+    const uint32_t *slot = solver->cells.slot;
+    for (int axis = 0; axis < 3; ++axis) {
+        gather(to->x[axis], from->x[axis], slot, begin, end);
+        gather(to->velocity[axis], from->velocity[axis], slot, begin, end);
+    }
+    gather(to->excess, from->excess, slot, begin, end);
+    gather(to->rate, from->rate, slot, begin, end);
+    gather(to->id, from->id, slot, begin, end);
+    gather(to->group, from->group, slot, begin, end);
+}
+
+// What follows from a particle alone and the sums need; pass `walls` has the rest for solids.
+static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
 {
     WeirWcsphData *data = &solver->data;
-    uint32_t group = solver->sorted.group[k];
-    data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
-    data->stick[k] = 1.0f;
-    data->needs_force[k] = 0.0f;
-    data->inverse_density[k] = 1.0f / (solver->parameters.rest_density + solver->sorted.excess[k]);
-    data->pressure[k] = 0.0f;
-    if (weir_group_is_solid(group)) {
+    const float *excess = solver->sorted.excess;
+    float rest_density = solver->parameters.rest_density;
+    bool linear = solver->parameters.equation_of_state == WEIR_EQUATION_LINEAR;
+    for (uint32_t k = begin; k < end; ++k) data->inverse_density[k] = 1.0f / (rest_density + excess[k]);
+    for (uint32_t k = begin; k < end; ++k) data->pressure[k] = equation_of_state(solver, linear, excess[k]);
+    for (int axis = 0; axis < 3; ++axis)
+        memcpy(data->seen_velocity[axis] + begin, solver->sorted.velocity[axis] + begin,
+               (end - begin) * sizeof(float));
+    for (uint32_t k = begin; k < end; ++k) {
+        uint32_t group = solver->sorted.group[k];
+        data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
+        data->stick[k] = 1.0f;
+        data->needs_force[k] = 0.0f;
+        if (!weir_group_is_solid(group)) continue;
         const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
         data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
         data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
-        return;
     }
-    data->pressure[k] = equation_of_state(solver, solver->sorted.excess[k]);
-    for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = solver->sorted.velocity[axis][k];
 }
 
 static void gather_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
+    WeirCells *cells = &solver->cells;
     for (uint32_t cell = begin; cell < end; ++cell) {
-        uint32_t first = solver->cells.cell_start[cell], last = solver->cells.cell_start[cell + 1];
-        if (last - first > 1) weir_cells_order(&solver->cells, solver->state.id, first, last);
-        for (uint32_t k = first; k < last; ++k) {
-            copy_particle(&solver->sorted, k, &solver->state, solver->cells.slot[k]);
-            prepare(solver, k);
-        }
+        uint32_t first = cells->cell_start[cell], last = cells->cell_start[cell + 1];
+        if (last - first > 1) weir_cells_order(cells, solver->state.id, first, last);
     }
+    gather_particles(solver, cells->cell_start[begin], cells->cell_start[end]);
+    prepare(solver, cells->cell_start[begin], cells->cell_start[end]);
 }
 
 // Points the pair passes to the arrays of the sorted particles, which change places with the state's every step.

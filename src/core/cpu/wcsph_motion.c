@@ -1,48 +1,59 @@
 // What moves particles: drift, kick, finish, time_step of docs/wcsph.md. Mirrors shaders/wcsph/.
+//
+// WEIR_LANES particles at a time, which share no sums; what happens to few (seal, drains, nozzles) one by one.
+#include "core/cpu/simd.h"
 #include "core/cpu/wcsph.h"
 
 #include <math.h>
 
-// Positions move by whole quanta; what is not finite or absurd does not move.
-static inline int32_t quanta(const WeirConstants *constants, float distance)
+// Where distances lead, in quanta: by whole ones; what is not finite or absurd does not move.
+static inline WeirMask moved(const WeirConstants *constants, WeirMask x, WeirLanes distance, uint32_t period)
 {
-    float steps = rintf(distance * constants->inverse_quantum);
-    return fabsf(steps) < 1e9f ? (int32_t)steps : 0;
-}
-
-static inline int32_t wrap(int32_t x, uint32_t period)
-{
+    WeirLanes steps = weir_lanes_round(distance * constants->inverse_quantum);
+    WeirMask sane = (WeirMask)(weir_lanes_abs(steps) < 1e9f), p = x - x + (int32_t)period;
+    x += __builtin_convertvector((WeirLanes)((WeirMask)steps & sane), WeirMask);
     if (period == 0) return x;
-    int32_t p = (int32_t)period;
-    if (x < 0) x += p;
-    if (x >= p) x -= p;
-    return x;
+    x += (x < 0) & p;
+    return x - ((x >= p) & p);
 }
 
-static void move(const WeirConstants *constants, WeirWcsphParticles *particles, uint32_t i,
-                 const float way[3])
+static inline WeirMask free_lanes(const uint32_t *group, uint32_t i, uint32_t end)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
-    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
-        particles->x[axis][i] = wrap(particles->x[axis][i] + quanta(constants, way[axis]), periods[axis]);
+    WeirMask g = weir_mask_load((const int32_t *)group + i);
+    return (g == WEIR_GROUP_FLUID) & weir_mask_first(end - i);
+}
+
+// Free fluid and what emitters still push.
+static inline WeirMask fluid_lanes(const uint32_t *group, uint32_t i, uint32_t end)
+{
+    WeirMask g = weir_mask_load((const int32_t *)group + i);
+    WeirMask inlet = (g >= WEIR_GROUP_INLET) & (g != WEIR_GROUP_EMPTY);
+    return ((g == WEIR_GROUP_FLUID) | inlet) & weir_mask_first(end - i);
+}
+
+static inline WeirMask select_places(WeirMask mask, WeirMask a, WeirMask b)
+{
+    return (mask & a) | (~mask & b);
 }
 
 // ---- drift ----
 
 // Fluid beyond an open side, or beyond a wall by more than a support radius, is gone.
-static bool is_outside(const WeirConstants *constants, const WeirWcsphParticles *particles, uint32_t i)
+static inline WeirMask is_outside(const WeirConstants *constants, const WeirMask x[3])
 {
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float reach = constants->search_radius;
+    WeirMask outside = {0};
     for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
         if (periods[axis] > 0) continue;
-        float place = constants->origin[axis] + (float)particles->x[axis][i] * constants->quantum;
+        WeirLanes place =
+            constants->origin[axis] + __builtin_convertvector(x[axis], WeirLanes) * constants->quantum;
         float low = constants->open_sides >> (2 * axis) & 1 ? 0.0f : reach;
         float high = constants->open_sides >> (2 * axis + 1) & 1 ? 0.0f : reach;
-        if (place < constants->domain_min[axis] - low || place > constants->domain_max[axis] + high)
-            return true;
+        outside |= (WeirMask)(place < constants->domain_min[axis] - low) |
+                   (WeirMask)(place > constants->domain_max[axis] + high);
     }
-    return false;
+    return outside;
 }
 
 static bool is_drained(const WeirWcsph *solver, uint32_t i)
@@ -78,27 +89,46 @@ typedef struct Drift {
     atomic_uint drained, lost;
 } Drift;
 
+// What leaves the fluid or enters it: few particles, one by one.
+static void leave_or_enter(Drift *drift, uint32_t i, bool outside)
+{
+    WeirWcsph *solver = drift->solver;
+    uint32_t *group = &solver->state.group[i];
+    if (*group != WEIR_GROUP_FLUID) {
+        if (has_passed(solver, i)) *group = WEIR_GROUP_FLUID;
+        return;
+    }
+    bool drained = solver->has_drains && is_drained(solver, i);
+    if (!drained && !outside) return;
+    *group = WEIR_GROUP_EMPTY;
+    atomic_fetch_add_explicit(drained ? &drift->drained : &drift->lost, 1, memory_order_relaxed);
+}
+
 static void drift_chunk(void *context, uint32_t begin, uint32_t end)
 {
     Drift *drift = context;
     WeirWcsph *solver = drift->solver;
     WeirWcsphParticles *state = &solver->state;
+    const WeirConstants *constants = &solver->constants;
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float half = 0.5f * solver->dt;
-    for (uint32_t i = begin; i < end; ++i) {
-        uint32_t group = state->group[i];
-        if (!weir_group_is_fluid(group)) continue;
-        float way[3];
-        for (int axis = 0; axis < 3; ++axis) way[axis] = half * state->velocity[axis][i];
-        move(&solver->constants, state, i, way);
-        state->excess[i] += half * state->rate[i];
-        if (group != WEIR_GROUP_FLUID) {
-            if (has_passed(solver, i)) state->group[i] = WEIR_GROUP_FLUID;
-            continue;
+    for (uint32_t i = begin; i < end; i += WEIR_LANES) {
+        WeirMask fluid = fluid_lanes(state->group, i, end), x[3];
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            WeirMask from = weir_mask_load(state->x[axis] + i);
+            WeirLanes way = half * weir_lanes_load(state->velocity[axis] + i);
+            x[axis] = moved(constants, from, way, periods[axis]);
+            weir_mask_store(state->x[axis] + i, select_places(fluid, x[axis], from));
         }
-        bool drained = solver->has_drains && is_drained(solver, i);
-        if (!drained && !is_outside(&solver->constants, state, i)) continue;
-        state->group[i] = WEIR_GROUP_EMPTY;
-        atomic_fetch_add_explicit(drained ? &drift->drained : &drift->lost, 1, memory_order_relaxed);
+        WeirLanes excess = weir_lanes_load(state->excess + i);
+        WeirLanes later = excess + half * weir_lanes_load(state->rate + i);
+        weir_lanes_store(state->excess + i, weir_lanes_select(fluid, later, excess));
+        WeirMask outside = is_outside(constants, x) & fluid;
+        WeirMask special = outside | (fluid & ~free_lanes(state->group, i, end));
+        if (!solver->has_drains && !weir_mask_any(special)) continue;
+        for (uint32_t lane = 0; lane < WEIR_LANES; ++lane) {
+            if (fluid[lane]) leave_or_enter(drift, i + lane, outside[lane]);
+        }
     }
 }
 
@@ -118,16 +148,19 @@ void weir_wcsph_drift(WeirWcsph *solver)
 
 // ---- kick ----
 
+// Of all, since solids get theirs after it; an inlet's particles keep their velocity.
 static void kick_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
     const WeirWcsphData *data = &solver->data;
-    for (uint32_t i = begin; i < end; ++i) {
-        uint32_t group = solver->sorted.group[i];
-        if (!weir_group_is_fluid(group)) continue;
-        float dt = group == WEIR_GROUP_FLUID ? solver->dt : 0.0f; // an inlet's particles keep their velocity
-        for (int axis = 0; axis < 3; ++axis)
-            data->new_velocity[axis][i] = data->velocity[axis][i] + dt * data->acceleration[axis][i];
+    for (uint32_t i = begin; i < end; i += WEIR_LANES) {
+        WeirMask free = free_lanes(solver->sorted.group, i, end);
+        WeirLanes dt = (WeirLanes)((WeirMask)weir_lanes_fill(solver->dt) & free);
+        for (int axis = 0; axis < 3; ++axis) {
+            WeirLanes v = weir_lanes_load(data->velocity[axis] + i);
+            weir_lanes_store(data->new_velocity[axis] + i,
+                             v + dt * weir_lanes_load(data->acceleration[axis] + i));
+        }
     }
 }
 
@@ -141,16 +174,26 @@ void weir_wcsph_kick(WeirWcsph *solver)
 // ---- finish ----
 
 typedef struct Maxima {
-    float speed2, acceleration2, density_error;
-    uint32_t fluid, bad, first_bad_id;
+    WeirLanes speed2, acceleration2, density_error;
+    WeirMask fluid; // minus their number
+    uint32_t bad, first_bad_id;
 } Maxima;
+
+static float largest(WeirLanes lanes)
+{
+    float result = 0.0f;
+    for (int lane = 0; lane < WEIR_LANES; ++lane) result = lanes[lane] > result ? lanes[lane] : result;
+    return result;
+}
 
 static void note(WeirWcsph *solver, const Maxima *maxima)
 {
-    weir_atomic_max(&solver->speed_bits, sqrtf(maxima->speed2));
-    weir_atomic_max(&solver->acceleration_bits, sqrtf(maxima->acceleration2));
-    weir_atomic_max(&solver->density_bits, maxima->density_error);
-    atomic_fetch_add_explicit(&solver->fluid_in_step, maxima->fluid, memory_order_relaxed);
+    uint32_t fluid = 0;
+    for (int lane = 0; lane < WEIR_LANES; ++lane) fluid -= (uint32_t)maxima->fluid[lane];
+    weir_atomic_max(&solver->speed_bits, sqrtf(largest(maxima->speed2)));
+    weir_atomic_max(&solver->acceleration_bits, sqrtf(largest(maxima->acceleration2)));
+    weir_atomic_max(&solver->density_bits, largest(maxima->density_error));
+    atomic_fetch_add_explicit(&solver->fluid_in_step, fluid, memory_order_relaxed);
     if (maxima->bad == 0) return;
     atomic_fetch_add_explicit(&solver->bad_in_step, maxima->bad, memory_order_relaxed);
     uint32_t old = atomic_load_explicit(&solver->first_bad_id, memory_order_relaxed);
@@ -160,33 +203,49 @@ static void note(WeirWcsph *solver, const Maxima *maxima)
     }
 }
 
-static float square(const float *const v[3], uint32_t i)
+// The larger of a maximum and a value of the lanes in `mask`; NaN is passed over.
+static inline WeirLanes larger(WeirLanes maximum, WeirLanes value, WeirMask mask)
 {
-    return v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i];
+    return weir_lanes_max((WeirLanes)((WeirMask)value & mask), maximum);
 }
 
-// The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
-static void seal(const WeirWcsph *solver, WeirWcsphParticles *particles, uint32_t i)
+static inline WeirLanes square(const float *const v[3], uint32_t i)
+{
+    WeirLanes x = weir_lanes_load(v[0] + i), y = weir_lanes_load(v[1] + i), z = weir_lanes_load(v[2] + i);
+    return x * x + y * y + z * z;
+}
+
+static void note_bad(Maxima *maxima, const uint32_t *id, WeirMask bad)
+{
+    if (!weir_mask_any(bad)) return;
+    for (uint32_t lane = 0; lane < WEIR_LANES; ++lane) {
+        if (!bad[lane]) continue;
+        ++maxima->bad;
+        if (id[lane] < maxima->first_bad_id) maxima->first_bad_id = id[lane];
+    }
+}
+
+// The seal of the domain's own walls: no free fluid gets deeper into them than one spacing.
+static inline void seal(const WeirWcsph *solver, uint32_t axis, WeirMask free, WeirMask *x, WeirLanes *v)
 {
     const WeirConstants *constants = &solver->constants;
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
-    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-        float depth = solver->parameters.particle_spacing;
-        float low =
-            (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
-        float high =
-            (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
-        int32_t *x = &particles->x[axis][i];
-        float *v = &particles->velocity[axis][i];
-        if (periods[axis] > 0) continue;
-        if ((float)*x < low && !(constants->open_sides >> (2 * axis) & 1)) {
-            *x = (int32_t)low;
-            *v = fmaxf(*v, 0.0f);
-        }
-        if ((float)*x > high && !(constants->open_sides >> (2 * axis + 1) & 1)) {
-            *x = (int32_t)high;
-            *v = fminf(*v, 0.0f);
-        }
+    const WeirLanes zero = {0};
+    float depth = solver->parameters.particle_spacing;
+    float low = (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
+    float high = (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
+    bool open_low = constants->open_sides >> (2 * axis) & 1,
+         open_high = constants->open_sides >> (2 * axis + 1) & 1;
+    if (periods[axis] > 0) return;
+    if (!open_low) {
+        WeirMask below = (WeirMask)(__builtin_convertvector(*x, WeirLanes) < low) & free;
+        *x = select_places(below, free - free + (int32_t)low, *x);
+        *v = weir_lanes_select(below, weir_lanes_max(*v, zero), *v);
+    }
+    if (!open_high) {
+        WeirMask above = (WeirMask)(__builtin_convertvector(*x, WeirLanes) > high) & free;
+        *x = select_places(above, free - free + (int32_t)high, *x);
+        *v = weir_lanes_select(above, -weir_lanes_max(-*v, zero), *v);
     }
 }
 
@@ -194,31 +253,37 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
     const WeirWcsphData *data = &solver->data;
+    const WeirConstants *constants = &solver->constants;
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     WeirWcsphParticles *to = &solver->sorted;
-    const float limit = solver->constants.speed_limit * solver->constants.speed_limit;
+    const float limit = constants->speed_limit * constants->speed_limit;
     float dt = solver->dt, half = 0.5f * dt, rest_density = solver->parameters.rest_density;
     Maxima maxima = {.first_bad_id = UINT32_MAX};
-    for (uint32_t i = begin; i < end; ++i) {
-        if (!weir_group_is_fluid(to->group[i])) continue;
-        bool free = to->group[i] == WEIR_GROUP_FLUID;
-        float speed2 = square((const float *const *)data->new_velocity, i), way[3];
-        if (!(speed2 <= limit) || !isfinite(data->rate[i])) { // NaN compares false
-            ++maxima.bad;
-            if (to->id[i] < maxima.first_bad_id) maxima.first_bad_id = to->id[i];
+    for (uint32_t i = begin; i < end; i += WEIR_LANES) {
+        WeirMask fluid = fluid_lanes(to->group, i, end), free = free_lanes(to->group, i, end);
+        WeirLanes speed2 = square((const float *const *)data->new_velocity, i);
+        WeirLanes rate = weir_lanes_load(data->rate + i), excess = weir_lanes_load(to->excess + i);
+        WeirMask good =
+            (WeirMask)(speed2 <= limit) & (WeirMask)(weir_lanes_abs(rate) < INFINITY); // NaN: false
+        note_bad(&maxima, to->id + i, fluid & ~good);
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            WeirLanes v = weir_lanes_load(data->new_velocity[axis] + i);
+            WeirLanes shift = dt * weir_lanes_load(data->shift[axis] + i);
+            WeirMask from = weir_mask_load(to->x[axis] + i);
+            WeirMask x =
+                moved(constants, from, half * v + (WeirLanes)((WeirMask)shift & free), periods[axis]);
+            seal(solver, axis, free, &x, &v);
+            weir_mask_store(to->x[axis] + i, select_places(fluid, x, from));
+            weir_lanes_store(to->velocity[axis] + i,
+                             weir_lanes_select(fluid, v, weir_lanes_load(to->velocity[axis] + i)));
         }
-        for (int axis = 0; axis < 3; ++axis) {
-            to->velocity[axis][i] = data->new_velocity[axis][i];
-            way[axis] = half * to->velocity[axis][i] + (free ? dt * data->shift[axis][i] : 0.0f);
-        }
-        to->excess[i] += half * data->rate[i];
-        move(&solver->constants, to, i, way);
-        if (free) seal(solver, to, i);
-        ++maxima.fluid;
-        maxima.speed2 = fmaxf(maxima.speed2, speed2);
-        maxima.density_error = fmaxf(maxima.density_error, fabsf(to->excess[i]) / rest_density);
-        if (free)
-            maxima.acceleration2 =
-                fmaxf(maxima.acceleration2, square((const float *const *)data->acceleration, i));
+        excess = weir_lanes_select(fluid, excess + half * rate, excess);
+        weir_lanes_store(to->excess + i, excess);
+        maxima.fluid += fluid;
+        maxima.speed2 = larger(maxima.speed2, speed2, fluid);
+        maxima.density_error = larger(maxima.density_error, weir_lanes_abs(excess) / rest_density, fluid);
+        maxima.acceleration2 =
+            larger(maxima.acceleration2, square((const float *const *)data->acceleration, i), free);
     }
     note(solver, &maxima);
 }

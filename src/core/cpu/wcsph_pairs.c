@@ -34,6 +34,19 @@ INLINE Vector load(const float *const array[3], uint32_t i, Variant variant)
     return v;
 }
 
+INLINE WeirLanes load_numbers(const int32_t *numbers)
+{
+    return __builtin_convertvector(weir_mask_load(numbers), WeirLanes);
+}
+
+// Stores the lanes whose mask is set; in 2D the third component is 0.
+INLINE void store_where(float *const array[3], uint32_t begin, Vector v, WeirMask mask)
+{
+    weir_lanes_store_where(array[0] + begin, v.x, mask);
+    weir_lanes_store_where(array[1] + begin, v.y, mask);
+    weir_lanes_store_where(array[2] + begin, v.z, mask);
+}
+
 INLINE WeirLanes dot(Vector a, Vector b, Variant variant)
 {
     WeirLanes sum = a.x * b.x + a.y * b.y;
@@ -102,10 +115,8 @@ INLINE WeirLanes kernel_slope(WeirLanes s, Variant variant)
 
 INLINE void load_place(const WeirWcsphData *data, uint32_t begin, const WeirRun *run, WeirMask place[3])
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        memcpy(&place[axis], data->x[axis] + begin, sizeof place[axis]);
-        place[axis] -= run->shift[axis];
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = weir_mask_load(data->x[axis] + begin) - run->shift[axis];
 }
 
 // Is any of the particles of a kind that a pass works on?
@@ -123,6 +134,12 @@ static bool any_solid(const float *is_fluid, uint32_t begin, uint32_t count)
         if (is_fluid[i] == 0.0f) return true;
     }
     return false;
+}
+
+// The lanes of a group whose flag is set.
+INLINE WeirMask chosen(const float *flag, uint32_t begin, uint32_t lanes)
+{
+    return (WeirMask)(weir_lanes_load(flag + begin) != (WeirLanes){0}) & weir_mask_first(lanes);
 }
 
 // ---- walls: what solid particles see of the fluid (Adami, Hu, Adams 2012) ----
@@ -255,39 +272,45 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
     return sums;
 }
 
-// Acceleration by pressure and viscosity of lane `lane`. `inside`: of fluid whose support is full, for which laminar viscosity
-// has Morris' form; tension control makes its negative pressure act by its difference.
-static void finish_acceleration(const WeirWcsphData *data, const ForceSums *sums, uint32_t lane, uint32_t i,
-                                bool inside)
+// Acceleration by pressure and viscosity. `inside`: lanes of fluid whose support is full, for which laminar viscosity has
+// Morris' form; tension control makes their negative pressure act by its difference.
+INLINE Vector acceleration_of(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
+                              WeirMask inside, Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float own = data->pressure[i];
-    bool tension = data->parameters->tension_control == WEIR_TENSION_CONTROL_ON;
-    if (tension && inside && own < 0.0f) own = -own;
-    float common = constants->particle_mass * data->inverse_density[i] * constants->gradient_factor;
-    float pressure = -common * constants->quantum;
-    float friction = common * 2.0f * data->parameters->viscosity,
-          laminar = inside ? common * constants->laminar_factor : 0.0f;
-    float viscous = common * (inside ? constants->artificial_factor : constants->viscosity_factor);
-    float sound = constants->sound_speed,
-          barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
+    const WeirLanes zero = {0};
+    WeirLanes own = weir_lanes_load(data->pressure + begin);
+    if (data->parameters->tension_control == WEIR_TENSION_CONTROL_ON)
+        own = weir_lanes_select(inside & (WeirMask)(own < zero), -own, own);
+    WeirLanes common = constants->particle_mass * weir_lanes_load(data->inverse_density + begin) *
+                       constants->gradient_factor;
+    WeirLanes pressure = -common * constants->quantum;
+    WeirLanes friction = common * 2.0f * data->parameters->viscosity;
+    WeirLanes laminar = weir_lanes_select(inside, common * constants->laminar_factor, zero);
+    WeirLanes viscous = common * weir_lanes_select(inside, weir_lanes_fill(constants->artificial_factor),
+                                                   weir_lanes_fill(constants->viscosity_factor));
+    float sound = constants->sound_speed;
+    float barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
+    Vector a = {{0}, {0}, {0}};
+    WeirLanes *sum = &a.x;
     const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x, *v = &sums->viscous.x;
     const WeirLanes *l = &sums->laminar.x, *f = &sums->friction.x, *b = &sums->barrier.x;
-    for (int axis = 0; axis < 3; ++axis) {
-        data->acceleration[axis][i] = pressure * (p[axis][lane] + own * g[axis][lane]) +
-                                      viscous * v[axis][lane] + laminar * l[axis][lane] +
-                                      friction * f[axis][lane] + barrier * b[axis][lane];
+    for (int axis = 0; axis < (variant.three_dimensional ? 3 : 2); ++axis) {
+        sum[axis] = pressure * (p[axis] + own * g[axis]) + viscous * v[axis] + laminar * l[axis] +
+                    friction * f[axis] + barrier * b[axis];
     }
+    return a;
 }
 
 // Acceleration that the pointer tool adds to a particle: falls off linearly to zero at the tool's radius.
-static void add_tool(const WeirWcsphData *data, uint32_t i, const float place[3])
+static void add_tool(const WeirWcsphData *data, uint32_t i)
 {
     const WeirConstants *constants = data->constants;
     float offset[3], distance2 = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-        offset[axis] = place[axis] - constants->tool_position[axis];
-        if (axis < (int)constants->dimension) distance2 += offset[axis] * offset[axis];
+    for (int axis = 0; axis < (int)constants->dimension; ++axis) {
+        float place = constants->origin[axis] + (float)data->x[axis][i] * constants->quantum;
+        offset[axis] = place - constants->tool_position[axis];
+        distance2 += offset[axis] * offset[axis];
     }
     float distance = sqrtf(distance2);
     if (!(distance < constants->tool_radius)) return;
@@ -303,77 +326,84 @@ static void add_tool(const WeirWcsphData *data, uint32_t i, const float place[3]
     }
 }
 
-static void add_body_forces(const WeirWcsphData *data, uint32_t i)
+INLINE void add_body_forces(const WeirWcsphData *data, uint32_t begin, Vector *acceleration, Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float place[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        place[axis] = constants->origin[axis] + (float)data->x[axis][i] * constants->quantum;
-        float pull = data->parameters->central_force * (place[axis] - constants->center[axis]);
-        data->acceleration[axis][i] += data->parameters->gravity[axis];
-        if (axis < (int)constants->dimension) data->acceleration[axis][i] -= pull;
+    WeirLanes *a = &acceleration->x;
+    for (int axis = 0; axis < (variant.three_dimensional ? 3 : 2); ++axis) {
+        WeirLanes place = constants->origin[axis] + load_numbers(data->x[axis] + begin) * constants->quantum;
+        a[axis] += data->parameters->gravity[axis];
+        a[axis] -= data->parameters->central_force * (place - constants->center[axis]);
     }
-    if (constants->dimension == 2) data->acceleration[2][i] = 0.0f;
-    if (constants->tool_kind != WEIR_TOOL_NONE) add_tool(data, i, place);
 }
 
 // Particle shifting (Sun et al. 2017) where the surface number says that the support is full (Lee et al. 2008).
-static void finish_shift(const WeirWcsphData *data, const ForceSums *sums, uint32_t lane, uint32_t i,
-                         bool inside)
+INLINE Vector shift_of(const WeirWcsphData *data, const ForceSums *sums, WeirMask inside, WeirLanes *rate,
+                       Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float most = 0.25f * data->max_speed;
+    const WeirLanes most = weir_lanes_fill(0.25f * data->max_speed), zero = {0};
+    float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
     float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->max_speed *
                    constants->particle_mass * constants->gradient_factor * constants->quantum;
     const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
-    float u[3], u2 = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-        u[axis] = inside ? factor * (g[axis][lane] + 0.2f * c[axis][lane]) : 0.0f;
-        u2 += u[axis] * u[axis];
+    Vector shift = {{0}, {0}, {0}};
+    WeirLanes *u = &shift.x;
+    for (int axis = 0; axis < 3; ++axis)
+        u[axis] = weir_lanes_select(inside, factor * (g[axis] + 0.2f * c[axis]), zero);
+    WeirLanes length = weir_lanes_sqrt(dot(shift, shift, variant));
+    WeirLanes scale = weir_lanes_select((WeirMask)(length > most), most / length, weir_lanes_fill(1.0f));
+    for (int axis = 0; axis < 3; ++axis) u[axis] *= scale;
+    *rate = 2.0f * gradient * dot(shift, sums->gradient, variant); // of V sum W along the shift
+    return shift;
+}
+
+// What shifting and the volume that particles fill do to the density, and the return of spray to its rest density.
+INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
+                               WeirLanes surface, WeirLanes rate)
+{
+    const WeirConstants *constants = data->constants;
+    const WeirLanes zero = {0};
+    float c0 = constants->sound_speed, h = constants->smoothing_length, bulk = (float)constants->dimension;
+    WeirLanes filling = constants->particle_mass * constants->kernel_factor * sums->filling;
+    WeirLanes volume = (filling - constants->lattice_filling) * c0 / (volume_time * h);
+    rate = weir_lanes_select((WeirMask)(surface >= full_support * bulk), rate + volume, rate);
+    WeirLanes lack = -weir_lanes_load(data->excess + begin);
+    WeirMask spray = (WeirMask)(surface < spray_limit * bulk) & (WeirMask)(lack > zero);
+    return weir_lanes_select(spray, lack * weir_lanes_load(data->inverse_density + begin) * c0 / h, rate);
+}
+
+INLINE void fluid_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
+                        Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    float full =
+        -constants->particle_mass * constants->gradient_factor * constants->quantum * constants->quantum;
+    ForceSums sums = sum_forces(data, group, begin, variant, false);
+    WeirLanes surface = full * sums.surface, rate;
+    WeirMask inside = (WeirMask)(surface >= 0.95f * (float)constants->dimension);
+    WeirMask fluid = chosen(data->is_fluid, begin, group->lanes);
+    Vector acceleration = acceleration_of(data, &sums, begin, inside, variant);
+    add_body_forces(data, begin, &acceleration, variant);
+    Vector shift = shift_of(data, &sums, inside, &rate, variant);
+    rate = shift_rate_of(data, &sums, begin, surface, rate);
+    store_where(data->acceleration, begin, acceleration, fluid);
+    store_where(data->shift, begin, shift, fluid);
+    weir_lanes_store_where(data->shift_rate + begin, rate, fluid);
+    if (constants->tool_kind == WEIR_TOOL_NONE) return;
+    for (uint32_t lane = 0; lane < group->lanes; ++lane) {
+        if (fluid[lane]) add_tool(data, begin + lane);
     }
-    float length = sqrtf(u2), scale = length > most ? most / length : 1.0f;
-    float along = 0.0f; // u . grad C, C the concentration sum V W
-    for (int axis = 0; axis < 3; ++axis) {
-        data->shift[axis][i] = scale * u[axis];
-        along += scale * u[axis] * g[axis][lane];
-    }
-    float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
-    data->shift_rate[i] = 2.0f * gradient * along;
 }
 
 INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                          Variant variant)
 {
-    const WeirConstants *constants = data->constants;
-    float full =
-        -constants->particle_mass * constants->gradient_factor * constants->quantum * constants->quantum;
-    if (any_set(data->is_fluid, begin, group->lanes)) {
-        ForceSums sums = sum_forces(data, group, begin, variant, false);
-        for (uint32_t lane = 0; lane < group->lanes; ++lane) {
-            uint32_t i = begin + lane;
-            if (data->is_fluid[i] == 0.0f) continue;
-            bool inside = full * sums.surface[lane] >= 0.95f * (float)constants->dimension;
-            finish_acceleration(data, &sums, lane, i, inside);
-            add_body_forces(data, i);
-            finish_shift(data, &sums, lane, i, inside);
-            if (full * sums.surface[lane] >= full_support * (float)constants->dimension) {
-                float filling = constants->particle_mass * constants->kernel_factor * sums.filling[lane];
-                data->shift_rate[i] += (filling - constants->lattice_filling) * constants->sound_speed /
-                                       (volume_time * constants->smoothing_length);
-            }
-            bool spray = full * sums.surface[lane] < spray_limit * (float)constants->dimension;
-            float lack = -data->excess[i];
-            if (spray && lack > 0.0f)
-                data->shift_rate[i] =
-                    lack * data->inverse_density[i] * constants->sound_speed / constants->smoothing_length;
-        }
-    }
+    if (any_set(data->is_fluid, begin, group->lanes)) fluid_group(data, group, begin, variant);
     if (any_set(data->needs_force, begin, group->lanes)) {
         ForceSums sums = sum_forces(data, group, begin, variant, true);
-        for (uint32_t lane = 0; lane < group->lanes; ++lane) {
-            if (data->needs_force[begin + lane] != 0.0f)
-                finish_acceleration(data, &sums, lane, begin + lane, false);
-        }
+        store_where(data->acceleration, begin, acceleration_of(data, &sums, begin, (WeirMask){0}, variant),
+                    chosen(data->needs_force, begin, group->lanes));
     }
 }
 
@@ -415,12 +445,9 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
     float volume = constants->particle_mass * constants->gradient_factor;
     float compress = volume * constants->quantum;
     float diffuse = -volume * 2.0f * parameters->density_diffusion * constants->smoothing_length * c0;
-    for (uint32_t lane = 0; lane < group->lanes; ++lane) {
-        uint32_t i = begin + lane;
-        if (data->is_fluid[i] != 0.0f)
-            data->rate[i] =
-                rho[lane] * (compress * divergence[lane] + data->shift_rate[i]) + diffuse * diffusion[lane];
-    }
+    WeirLanes rate =
+        rho * (compress * divergence + weir_lanes_load(data->shift_rate + begin)) + diffuse * diffusion;
+    weir_lanes_store_where(data->rate + begin, rate, chosen(data->is_fluid, begin, group->lanes));
 }
 
 // ---- The passes: one copy of each per dimension and kind of kernel ----
