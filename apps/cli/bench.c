@@ -1,26 +1,22 @@
 // weir bench: the tutorial's table natively, for every backend, neighbour search and thread count; and the
-// cases that speed is tracked by (docs/performance.md).
+// cases and suites that speed is tracked by (docs/performance.md).
 #include "backend.h"
-#include "bench_scene.h"
+#include "bench_output.h"
+#include "bench_suite.h"
 #include "commands.h"
-#include "output.h"
 #include "setup.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum {
-    MAX_ITEMS = 32,
-    MAX_REPETITIONS = 64,
-    MAX_BATCH = 256, // steps; the fluid of a batch is still the scene's start
-};
+enum { MAX_ITEMS = 32, MAX_RUNS = 66, SUITE_REPETITIONS = 5 };
 
 typedef struct BenchOptions {
-    const char *counts, *backends, *search, *threads, *bench_case, *scene;
-    double seconds;
-    bool json, csv;
+    const char *counts, *backends, *search, *threads, *bench_case, *scene, *suite, *compare;
+    WeirCount repetitions;
+    double seconds, scale;
+    bool json, csv, passes;
 } BenchOptions;
 
 // What to measure: every combination of these.
@@ -29,21 +25,22 @@ typedef struct Plan {
     size_t count_count, thread_count;
     bool cpu, gpu, gpu_must; // gpu_must: asked for by name
     bool grid, all_pairs;
-    WeirBenchCase bench_case;
+    const WeirBenchCase *bench_case;
+    const WeirBenchSuite *suite;
+    WeirBenchEffort effort;
 } Plan;
-
-typedef struct Row {
-    char scene[64], backend[8], device[128], search[32];
-    uint32_t particles, threads;
-    double mean_neighbors, ms_per_step, particle_steps_per_second, real_time_factor, frames_per_second;
-} Row;
 
 typedef struct Bench {
     BenchOptions options;
     Plan plan;
+    WeirBenchFormat format;
     WeirCliBackend gpu;
-    json_t *rows; // --json prints them all at the end
+    json_t *rows, *earlier; // earlier: of --compare
     bool header_printed;
+    // Of a suite: the item measured, its runs so far, and seconds per particle of all runs of all items.
+    const WeirBenchItem *item;
+    uint32_t run;
+    double times[MAX_ITEMS][MAX_RUNS];
 } Bench;
 
 // ---- Reading the plan ----
@@ -93,220 +90,177 @@ static bool parse_pair(const char *option, const char *text, const char *const n
     return true;
 }
 
-static bool make_plan(Bench *bench)
+static bool is_together(const char *one, const char *one_is, const char *other, const char *other_is)
 {
-    const BenchOptions *options = &bench->options;
-    Plan *plan = &bench->plan;
-    static const char *const cases[] = {"article", "n20", "block_2d", "block_3d", "dam_2d", "dam_3d"};
-    plan->bench_case = WEIR_BENCH_ARTICLE;
-    for (size_t n = 0; options->bench_case && n < sizeof cases / sizeof cases[0]; ++n)
-        if (strcmp(options->bench_case, cases[n]) == 0) plan->bench_case = (WeirBenchCase)n;
-    bool article = plan->bench_case == WEIR_BENCH_ARTICLE;
+    if (!one || !other) return false;
+    fprintf(stderr, "weir bench: %s and %s are both given; must be one of them\n", one_is, other_is);
+    return true;
+}
+
+// What to measure, of three ways to say it.
+static bool choose_what(const BenchOptions *options, Plan *plan)
+{
+    if (is_together(options->suite, "--suite", options->scene, "--scene") ||
+        is_together(options->suite, "--suite", options->bench_case, "--case") ||
+        is_together(options->suite, "--suite", options->counts, "--counts")) {
+        return false;
+    }
     if (options->scene && (options->counts || options->bench_case)) {
         fprintf(stderr, "weir bench: --scene is measured as it is; leave out --counts and --case\n");
         return false;
     }
+    if (options->scale > 0.0 && !options->suite) {
+        fprintf(stderr, "weir bench: --scale is for --suite; give --counts instead\n");
+        return false;
+    }
+    plan->bench_case = weir_bench_case(options->bench_case ? options->bench_case : "article");
+    plan->suite = options->suite ? weir_bench_suite(options->suite) : NULL;
+    return true;
+}
+
+static bool choose_search(const BenchOptions *options, Plan *plan)
+{
+    bool table = plan->bench_case->kind == WEIR_BENCH_ARTICLE && !options->scene && !plan->suite;
+    const char *search = options->search ? options->search : table ? "all_pairs,grid" : "grid";
+    return parse_pair("--search", search, (const char *const[2]){"all_pairs", "grid"}, &plan->all_pairs,
+                      &plan->grid);
+}
+
+static bool make_plan(Bench *bench)
+{
+    const BenchOptions *options = &bench->options;
+    Plan *plan = &bench->plan;
+    if (!choose_what(options, plan) || !choose_search(options, plan)) return false;
+    bool article = plan->bench_case->kind == WEIR_BENCH_ARTICLE;
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     char threads[32] = "1";
-    if (cores > 1) snprintf(threads, sizeof threads, "1,%ld", cores < 1024 ? cores : 1024);
+    if (cores > 1)
+        snprintf(threads, sizeof threads, plan->suite ? "%.0s%ld" : "%s,%ld", "1",
+                 cores < 1024 ? cores : 1024);
     const char *counts = options->counts ? options->counts
                          : article       ? "1000,5000,10000,32768"
                                          : "32768,100000,1000000";
-    const char *search = options->search              ? options->search
-                         : article && !options->scene ? "all_pairs,grid"
-                                                      : "grid";
     plan->cpu = plan->gpu = true;
     plan->gpu_must = options->backends != NULL;
+    plan->effort = (WeirBenchEffort){options->seconds, 1};
+    if (plan->suite) plan->effort.repetitions = SUITE_REPETITIONS;
+    if (options->repetitions.is_set) plan->effort.repetitions = (uint32_t)options->repetitions.value;
     return parse_counts("--counts", counts, 1, 1u << 28, plan->counts, &plan->count_count) &&
            parse_counts("--threads", options->threads ? options->threads : threads, 1, 1024, plan->threads,
                         &plan->thread_count) &&
-           parse_pair("--search", search, (const char *const[2]){"all_pairs", "grid"}, &plan->all_pairs,
-                      &plan->grid) &&
            (!options->backends || parse_pair("--backends", options->backends,
                                              (const char *const[2]){"cpu", "gpu"}, &plan->cpu, &plan->gpu));
 }
 
 // ---- Measuring ----
 
-static int compare_numbers(const void *a, const void *b)
+// Time per particle over that of the item that this one is measured against, on the same backend and threads.
+static void set_relative(Bench *bench, WeirBenchRow *row)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    if (!bench->item || bench->run >= MAX_RUNS) return;
+    double time = row->ms_per_step / row->particles;
+    bench->times[bench->item - bench->plan.suite->items][bench->run] = time;
+    if (bench->item->against < 0) return;
+    double reference = bench->times[bench->item->against][bench->run];
+    if (reference > 0.0) row->relative = time / reference;
 }
 
-// Wall seconds of `steps` steps from the scene's start; negative if something failed. Every batch sees the
-// same fluid, however fast the backend is.
-static double time_steps(WeirSim *sim, uint32_t steps)
+static void print_passes(const WeirBenchRow *row)
 {
-    if (weir_sim_reset(sim) || weir_sim_step(sim, 1) || weir_sim_wait(sim)) return -1.0;
-    double start = weir_wall_time();
-    if (weir_sim_step(sim, steps) || weir_sim_wait(sim) || weir_sim_poll(sim)) return -1.0;
-    return weir_wall_time() - start;
+    for (uint32_t k = 0; k < row->pass_count; ++k)
+        printf("    %-16s %10.4g ms\n", row->passes[k].name, row->passes[k].milliseconds);
 }
 
-// Seconds per step: the median of some batches, after a warm-up that doubles its steps until a batch takes a
-// tenth of the budget. A step that alone takes longer than the budget is measured once.
-static double measure_step(WeirSim *sim, double budget)
+static void add_row(Bench *bench, WeirBenchRow *row)
 {
-    uint32_t steps = 1;
-    double batch = time_steps(sim, steps), spent = 0.0, times[MAX_REPETITIONS];
-    while (batch >= 0.0 && batch < 0.1 * budget && steps < MAX_BATCH) {
-        steps = 2 * steps < MAX_BATCH ? 2 * steps : MAX_BATCH;
-        batch = time_steps(sim, steps);
-    }
-    size_t count = 0;
-    while (batch >= 0.0 && count < MAX_REPETITIONS && (count == 0 || spent < budget)) {
-        batch = time_steps(sim, steps);
-        times[count++] = batch / steps;
-        spent += batch;
-    }
-    if (batch < 0.0) return -1.0;
-    qsort(times, count, sizeof times[0], compare_numbers);
-    return count % 2 ? times[count / 2] : 0.5 * (times[count / 2 - 1] + times[count / 2]);
-}
-
-static void fill_row(Row *row, const WeirSim *sim, const WeirDiagnostics *diagnostics, double step)
-{
-    const WeirScene *scene = weir_sim_scene(sim);
-    snprintf(row->scene, sizeof row->scene, "%.63s", weir_scene_title(scene));
-    snprintf(row->backend, sizeof row->backend, "%s", weir_sim_backend(sim));
-    snprintf(row->device, sizeof row->device, "%s", weir_sim_device(sim));
-    weir_cli_choice_name(scene, "search", row->search);
-    WeirClock clock = weir_sim_clock(sim);
-    row->particles = clock.fluid_particles; // walls take part, but are not counted
-    row->threads = weir_sim_threads(sim);
-    row->mean_neighbors = diagnostics->mean_neighbors;
-    row->ms_per_step = 1e3 * step;
-    row->particle_steps_per_second = row->particles / step;
-    row->real_time_factor = clock.time_step / step;
-    row->frames_per_second = 1.0 / step;
-}
-
-static WeirStatus measure_row(const WeirScene *scene, const WeirBackend *backend, uint32_t threads,
-                              double budget, Row *row)
-{
-    WeirSimOptions options = {.backend = backend, .threads = threads};
-    WeirDiagnostics diagnostics;
-    WeirSim *sim = weir_sim_create(scene, &options);
-    if (!sim) {
-        fprintf(stderr, "weir bench: memory ran out\n");
-        return WEIR_ERROR_MEMORY;
-    }
-    WeirStatus status = weir_sim_wait(sim);
-    double step = status ? -1.0 : measure_step(sim, budget);
-    if (!status) status = weir_sim_status(sim);
-    if (!status) status = weir_sim_diagnose(sim, true, &diagnostics);
-    if (!status && step < 0.0) status = WEIR_ERROR_DEVICE;
-    if (status) {
-        fprintf(stderr, "weir bench: %u particles on %s: %s\n", weir_sim_particle_count(sim),
-                weir_sim_device(sim), weir_sim_error(sim));
-    } else {
-        fill_row(row, sim, &diagnostics, step);
-    }
-    weir_sim_destroy(sim);
-    return status;
-}
-
-// ---- Printing ----
-
-static json_t *row_json(const Row *row)
-{
-    return json_pack("{s:s, s:I, s:s, s:s, s:s, s:I, s:f, s:f, s:f, s:f, s:f}", "scene", row->scene,
-                     "particles", (json_int_t)row->particles, "backend", row->backend, "device", row->device,
-                     "search", row->search, "threads", (json_int_t)row->threads, "mean_neighbors",
-                     row->mean_neighbors, "ms_per_step", row->ms_per_step, "particle_steps_per_second",
-                     row->particle_steps_per_second, "real_time_factor", row->real_time_factor,
-                     "frames_per_second", row->frames_per_second);
-}
-
-static void print_csv_row(const Row *row, bool header)
-{
-    if (header) {
-        printf("scene,particles,backend,device,search,threads,mean_neighbors,ms_per_step,"
-               "particle_steps_per_second,real_time_factor,frames_per_second\n");
-    }
-    printf("\"%s\",%u,%s,\"%s\",%s,%u,%.1f,%.6g,%.6g,%.4g,%.4g\n", row->scene, row->particles, row->backend,
-           row->device, row->search, row->threads, row->mean_neighbors, row->ms_per_step,
-           row->particle_steps_per_second, row->real_time_factor, row->frames_per_second);
-}
-
-static void print_table_row(const Row *row, bool header)
-{
-    if (header) {
-        printf("%10s  %-7s %-9s %7s %10s %11s %15s %9s %9s  %s\n", "particles", "backend", "search",
-               "threads", "neighbours", "ms/step", "M p-steps/s", "real-time", "frames/s", "device");
-    }
-    printf("%10u  %-7s %-9s %7u %10.1f %11.4g %15.4g %9.3g %9.4g  %s\n", row->particles, row->backend,
-           row->search, row->threads, row->mean_neighbors, row->ms_per_step,
-           1e-6 * row->particle_steps_per_second, row->real_time_factor, row->frames_per_second, row->device);
-}
-
-static void print_row(Bench *bench, const Row *row)
-{
-    bool header = !bench->header_printed;
+    set_relative(bench, row);
+    json_array_append_new(bench->rows, weir_bench_row_json(row));
+    weir_bench_print(row, bench->format, !bench->header_printed);
     bench->header_printed = true;
-    if (bench->options.json) {
-        json_array_append_new(bench->rows, row_json(row));
-    } else if (bench->options.csv) {
-        print_csv_row(row, header);
-    } else {
-        print_table_row(row, header);
-    }
-    fflush(stdout);
+    if (bench->options.passes && bench->format == WEIR_BENCH_TABLE) print_passes(row);
 }
 
-// ---- The command ----
-
-static WeirStatus measure_backend(Bench *bench, WeirScene *scene, const WeirBackend *backend,
-                                  uint32_t threads)
+static WeirStatus measure_backend(Bench *bench, WeirScene *scene, const WeirBenchCase *bench_case,
+                                  const WeirSimOptions *options)
 {
     const char *const names[2] = {"all_pairs", "grid"};
     const bool wanted[2] = {bench->plan.all_pairs, bench->plan.grid};
+    bool has_choice = strcmp(weir_scene_method(scene), "mueller") == 0;
     for (int k = 0; k < 2; ++k) {
-        Row row = {0};
+        WeirBenchRow row = {0};
         if (!wanted[k]) continue;
-        if (!weir_bench_is_wcsph(bench->plan.bench_case))
-            weir_scene_set_parameter_text(scene, "search", names[k]);
-        WeirStatus status = measure_row(scene, backend, threads, bench->options.seconds, &row);
+        if (has_choice) weir_scene_set_parameter_text(scene, "search", names[k]);
+        WeirStatus status = weir_bench_measure(scene, bench_case, options, &bench->plan.effort, &row);
         if (status) return status;
-        print_row(bench, &row);
+        add_row(bench, &row);
+        ++bench->run;
     }
     return WEIR_OK;
 }
 
-static WeirStatus measure_scene(Bench *bench, WeirScene *scene)
+// A suite runs on the GPU, and on the CPU only where there is none or by name.
+static WeirStatus measure_scene(Bench *bench, WeirScene *scene, const WeirBenchCase *bench_case)
 {
+    const Plan *plan = &bench->plan;
+    bool cpu = plan->cpu && !(plan->suite && bench->gpu.gpu && !plan->gpu_must);
     WeirStatus status = WEIR_OK;
-    for (size_t k = 0; bench->plan.cpu && !status && k < bench->plan.thread_count; ++k) {
-        status = measure_backend(bench, scene, weir_cpu_backend(), bench->plan.threads[k]);
+    bench->run = 0;
+    for (size_t k = 0; cpu && !status && k < plan->thread_count; ++k) {
+        WeirSimOptions options = {.backend = weir_cpu_backend(), .threads = plan->threads[k]};
+        status = measure_backend(bench, scene, bench_case, &options);
     }
-    if (bench->gpu.gpu && !status) status = measure_backend(bench, scene, bench->gpu.backend, 0);
+    WeirSimOptions options = {.backend = bench->gpu.backend};
+    if (bench->gpu.gpu && !status) status = measure_backend(bench, scene, bench_case, &options);
     return status;
+}
+
+static int measure_case(Bench *bench, const WeirBenchCase *bench_case, uint32_t count)
+{
+    int exit_status = WEIR_EXIT_INPUT;
+    WeirScene *scene = weir_bench_scene(bench_case, count);
+    if (!scene || weir_scene_check(scene)) {
+        fprintf(stderr, "weir bench: %s, %u particles: %s\n", bench_case->name, count,
+                scene ? weir_scene_error(scene) : "memory ran out");
+    } else {
+        WeirStatus status = measure_scene(bench, scene, bench_case);
+        exit_status = weir_cli_exit_status(status);
+        // What does not fit is left out of a suite.
+        if (bench->plan.suite && status == WEIR_ERROR_MEMORY) exit_status = WEIR_EXIT_DONE;
+    }
+    weir_scene_destroy(scene);
+    return exit_status;
+}
+
+static int measure_suite(Bench *bench)
+{
+    const WeirBenchSuite *suite = bench->plan.suite;
+    double scale = bench->options.scale > 0.0 ? bench->options.scale : 1.0;
+    int exit_status = WEIR_EXIT_DONE;
+    for (size_t k = 0; exit_status == WEIR_EXIT_DONE && k < suite->item_count; ++k) {
+        bench->item = &suite->items[k];
+        double count = fmax(1.0, floor(scale * bench->item->count + 0.5));
+        exit_status = measure_case(bench, weir_bench_case(bench->item->name), (uint32_t)fmin(count, 2e8));
+    }
+    return exit_status;
 }
 
 static int measure_all(Bench *bench)
 {
     int exit_status = WEIR_EXIT_DONE;
+    if (bench->plan.suite) return measure_suite(bench);
     if (bench->options.scene) {
         WeirScene *scene =
             weir_cli_load_scene(bench->options.scene, "bench", &(WeirTextList){0}, NULL, &exit_status);
-        if (scene) exit_status = weir_cli_exit_status(measure_scene(bench, scene));
+        if (scene) exit_status = weir_cli_exit_status(measure_scene(bench, scene, NULL));
         weir_scene_destroy(scene);
         return exit_status;
     }
-    for (size_t k = 0; exit_status == WEIR_EXIT_DONE && k < bench->plan.count_count; ++k) {
-        WeirScene *scene = weir_bench_scene(bench->plan.bench_case, bench->plan.counts[k]);
-        if (!scene || weir_scene_check(scene)) {
-            fprintf(stderr, "weir bench: %u particles: %s\n", bench->plan.counts[k],
-                    scene ? weir_scene_error(scene) : "memory ran out");
-            exit_status = WEIR_EXIT_INPUT;
-        } else {
-            exit_status = weir_cli_exit_status(measure_scene(bench, scene));
-        }
-        weir_scene_destroy(scene);
-    }
+    for (size_t k = 0; exit_status == WEIR_EXIT_DONE && k < bench->plan.count_count; ++k)
+        exit_status = measure_case(bench, bench->plan.bench_case, bench->plan.counts[k]);
     return exit_status;
 }
+
+// ---- The command ----
 
 // Without --backends a GPU is measured if there is a real one.
 static bool open_gpu(Bench *bench)
@@ -320,6 +274,24 @@ static bool open_gpu(Bench *bench)
     return !status;
 }
 
+static int measure_and_report(Bench *bench)
+{
+    if (!open_gpu(bench)) return WEIR_EXIT_FAILED;
+    bench->rows = json_array();
+    int exit_status = measure_all(bench);
+    if (exit_status == WEIR_EXIT_DONE && bench->earlier &&
+        !weir_bench_compare(bench->rows, bench->earlier, bench->options.compare)) {
+        exit_status = WEIR_EXIT_FAILED;
+    }
+    if (bench->format == WEIR_BENCH_JSON) {
+        if (!weir_json_print(bench->rows, stdout)) exit_status = WEIR_EXIT_FAILED;
+    } else {
+        json_decref(bench->rows);
+    }
+    weir_cli_backend_close(&bench->gpu);
+    return exit_status;
+}
+
 static int bench_command(int argument_count, char **arguments)
 {
     Bench bench = {.options = {.seconds = 1.0}};
@@ -329,32 +301,41 @@ static int bench_command(int argument_count, char **arguments)
                             &exit_status)) {
         return exit_status;
     }
-    if (bench.options.json && bench.options.csv) {
+    const BenchOptions *options = &bench.options;
+    if (options->json && options->csv) {
         fprintf(stderr, "weir bench: --json and --csv are both given; must be one of them\n");
         return WEIR_EXIT_INPUT;
     }
+    bench.format = options->json ? WEIR_BENCH_JSON : options->csv ? WEIR_BENCH_CSV : WEIR_BENCH_TABLE;
     if (!make_plan(&bench)) return WEIR_EXIT_INPUT;
-    if (!open_gpu(&bench)) return WEIR_EXIT_FAILED;
-    if (bench.options.json) bench.rows = json_array();
-    exit_status = measure_all(&bench);
-    if (bench.options.json && !weir_json_print(bench.rows, stdout)) exit_status = WEIR_EXIT_FAILED;
-    weir_cli_backend_close(&bench.gpu);
+    if (options->compare && !(bench.earlier = weir_bench_read(options->compare))) return WEIR_EXIT_INPUT;
+    exit_status = measure_and_report(&bench);
+    json_decref(bench.earlier);
     return exit_status;
 }
 
 #define FIELD(field) offsetof(BenchOptions, field)
 static const WeirOption bench_options[] = {
+    {"--suite", WEIR_OPTION_CHOICE, NULL, WEIR_BENCH_SUITES, FIELD(suite), 0, 0,
+     "a list of cases: a minute's worth; the targets; 3D up to 100 M; nasty ones; default supports"},
+    {"--scale", WEIR_OPTION_NUMBER, "X", NULL, FIELD(scale), 1e-6, 100, "times the suite's particles; 1"},
     {"--counts", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(counts), 0, 0,
      "particles of fluid; article: 1000,5000,10000,32768; others: 32768,100000,1000000"},
     {"--backends", WEIR_OPTION_TEXT, "cpu,gpu", NULL, FIELD(backends), 0, 0,
-     "cpu, and gpu if it is a real one; by name: any adapter"},
+     "cpu, and gpu if it is a real one; by name: any adapter. Suites: the CPU only without one"},
     {"--search", WEIR_OPTION_TEXT, "all_pairs,grid", NULL, FIELD(search), 0, 0,
-     "both; all but article: grid"},
-    {"--threads", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(threads), 0, 0, "on the CPU; 1 and one per core"},
-    {"--case", WEIR_OPTION_CHOICE, NULL, "article|n20|block_2d|block_3d|dam_2d|dam_3d", FIELD(bench_case), 0,
-     0, "the tutorial's parameters; about 20 neighbours; wcsph without and with walls"},
+     "both; all but the article's table: grid"},
+    {"--threads", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(threads), 0, 0,
+     "on the CPU; 1 and one per core; suites: one per core"},
+    {"--case", WEIR_OPTION_CHOICE, NULL, WEIR_BENCH_CASES, FIELD(bench_case), 0, 0,
+     "what to measure, see docs/performance.md; article"},
     {"--scene", WEIR_OPTION_TEXT, "FILE", NULL, FIELD(scene), 0, 0, "measure a scene file instead"},
     {"--seconds", WEIR_OPTION_NUMBER, "S", NULL, FIELD(seconds), 0.001, 600, "to spend on a row; 1"},
+    {"--repetitions", WEIR_OPTION_COUNT, "N", NULL, FIELD(repetitions), 1, 64,
+     "batches of a row at least; 1, suites 5"},
+    {"--compare", WEIR_OPTION_TEXT, "FILE", NULL, FIELD(compare), 0, 0,
+     "print the speed over that of an earlier --csv or --json; fail on a loss over 10 %"},
+    {"--passes", WEIR_OPTION_FLAG, NULL, NULL, FIELD(passes), 0, 0, "milliseconds per pass below each row"},
     {"--json", WEIR_OPTION_FLAG, NULL, NULL, FIELD(json), 0, 0, "print a list of objects"},
     {"--csv", WEIR_OPTION_FLAG, NULL, NULL, FIELD(csv), 0, 0, "print comma-separated values"},
 };
@@ -364,9 +345,12 @@ const WeirCommand weir_bench_command = {
     .synopsis = "[options]",
     .summary = "measures speed on every backend, for several particle counts",
     .notes =
-        "A row is the median of batches of at most 256 steps from the scene's start, after a warm-up.\n"
-        "M p-steps/s: millions of particles times steps per wall second. real-time: simulated seconds per\n"
-        "wall second. frames/s: at one step per frame.",
+        "A row is the median of batches of steps after a warm-up; +-% is half the spread of the batches.\n"
+        "n: neighbours inside the support; cand.: those that the grid's cells offer. M p-steps/s: millions "
+        "of\n"
+        "particles times steps per wall second; G pairs/s: times n. B/part.: bytes of memory per particle.\n"
+        "real-time: simulated seconds per wall second. relative: time per particle over that of the suite's "
+        "box.",
     .options = bench_options,
     .option_count = sizeof bench_options / sizeof bench_options[0],
     .run = bench_command,

@@ -236,6 +236,18 @@ typedef struct WeirDiagnostics {
 // `count_neighbors` costs a neighbour search on the host. WEIR_PENDING as weir_sim_read().
 WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics *diagnostics);
 
+// Neighbours from a sample of the fluid: cheap where weir_sim_diagnose() would be slow.
+typedef struct WeirNeighborCount {
+    uint32_t particles; // sampled
+    double neighbors;   // other particles inside the support radius, mean
+    double
+        candidates; // other particles in the cells that a search through the grid visits, mean; NaN: not known
+} WeirNeighborCount;
+// Samples at most `particles` fluid particles (0: 1024). WEIR_PENDING as weir_sim_read().
+WeirStatus weir_sim_count_neighbors(WeirSim *sim, uint32_t particles, WeirNeighborCount *found);
+// Bytes of device memory that the particles, their order and the grid take; 0 on the CPU, where they are the process's.
+uint64_t weir_sim_device_memory(const WeirSim *sim);
+
 // Milliseconds per pass of the last measured step; `name` is the pass's name in C, WGSL and here.
 typedef struct WeirPassTime {
     const char *name;

@@ -2,6 +2,7 @@
 #include "core/sim.h"
 #include "core/diagnostics.h"
 #include "core/grid.h"
+#include "core/neighbor_count.h"
 #include "core/scene.h"
 
 #include <math.h>
@@ -543,4 +544,29 @@ WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics
 uint32_t weir_sim_pass_times(const WeirSim *sim, WeirPassTime *times, uint32_t capacity)
 {
     return sim->solver ? sim->solver->interface->pass_times(sim->solver, times, capacity) : 0;
+}
+
+WeirStatus weir_sim_count_neighbors(WeirSim *sim, uint32_t particles, WeirNeighborCount *found)
+{
+    static const uint32_t enough = 1024;
+    WeirState state;
+    WeirStatus status = weir_sim_state(sim, &state);
+    if (status) return status;
+    const WeirConstants *constants = &sim->constants;
+    if (constants->period_x || constants->period_y || constants->period_z) {
+        WeirDiagnostics all;
+        status = weir_sim_diagnose(sim, true, &all);
+        *found = (WeirNeighborCount){weir_sim_clock(sim).fluid_particles, all.mean_neighbors, NAN};
+        return status;
+    }
+    status = weir_count_neighbors(&state, &sim->parameters, constants, particles ? particles : enough, found);
+    if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
+    if (sim->scene->method == WEIR_METHOD_MUELLER && sim->parameters.search == WEIR_SEARCH_ALL_PAIRS)
+        found->candidates = state.count - 1.0;
+    return WEIR_OK;
+}
+
+uint64_t weir_sim_device_memory(const WeirSim *sim)
+{
+    return sim->solver ? sim->solver->memory : 0;
 }

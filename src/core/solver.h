@@ -68,6 +68,7 @@ struct WeirSolver {
     const WeirSolverInterface *interface;
     char device[128];    // for people: what it runs on
     uint32_t threads;    // 0 on the GPU
+    uint64_t memory;     // bytes of the device's buffers; 0 on the CPU
     WeirMessage message; // of the last call that failed
 };
 

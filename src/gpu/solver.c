@@ -35,7 +35,10 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     solver->report = weir_report_create(gpu);
     if (!solver->report) return weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
     solver->buffers = (WeirBuffers){.gpu = gpu, .info = method->buffers, .count = method->buffer_count};
-    for (uint32_t name = 0; name < method->buffer_count; ++name) solver->buffers.size[name] = sizes[name];
+    for (uint32_t name = 0; name < method->buffer_count; ++name) {
+        solver->buffers.size[name] = sizes[name];
+        solver->base.memory += sizes[name];
+    }
     WeirStatus status = weir_buffers_create(&solver->buffers, &solver->constants, solver->report, message);
     if (status != WEIR_OK) return status;
     status = make_copies(solver, state_size, message);
