@@ -13,6 +13,9 @@
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
+// Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
+const LEAST_DENSITY = 0.8;
+
 // The workgroup's largest density error, as bits.
 var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero it
 
@@ -87,7 +90,7 @@ fn finish_fluid(i: u32, own: vec4i) {
     var velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
-    own_motion.w += last_half * rate;
+    own_motion.w = max(own_motion.w + last_half * rate, (LEAST_DENSITY - 1.0) * parameters.rest_density);
     let error = bitcast<u32>(abs(own_motion.w) / parameters.rest_density);
     if error > atomicLoad(&error_most) {
         atomicMax(&error_most, error);

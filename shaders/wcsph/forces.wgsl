@@ -30,7 +30,9 @@ struct Sums {
 // A last barrier keeps fast fluid out of walls, and spray forgets tension: docs/wcsph.md.
 const BARRIER_RANGE = 0.85; // spacings
 const BARRIER_STRENGTH = 4.0;
-const BARRIER_DAMPING = 0.125;
+const BRAKE_RANGE = 2.0;    // spacings
+const BRAKE_STRENGTH = 8.0;
+const BRAKE_LIMIT = 0.25;   // c0
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
 const VOLUME_TIME = 300.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk
@@ -43,14 +45,35 @@ fn sticks(group: u32) -> f32 {
     return 1.0;
 }
 
+// Own velocity of a particle of a solid, from where it is.
+fn solid_velocity(group: u32, place: Place) -> vec3f {
+    let n = group - GROUP_SOLID;
+    let surface = solid_table[n].surface_velocity.xyz;
+    if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
+        return surface;
+    }
+    let center = coordinate_of(solid_state[NOW + n].position.xyz - constants.origin.xyz);
+    let arm = wide(Vector(shortest(place - center)) * constants.quantum);
+    return surface + solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
+}
+
+// Of fluid and a solid's particle, one of each, with the solid's own velocity: motion of solids is as the fluid sees it.
+fn approach_velocity(own: vec4i, own_motion: vec4f, other: vec4i, other_motion: vec4f) -> Vector {
+    if is_solid(u32(own.w)) {
+        return vector_of(vec4f(solid_velocity(u32(own.w), place_of(own)), 0.0)) - vector_of(other_motion);
+    }
+    return vector_of(own_motion) - vector_of(vec4f(solid_velocity(u32(other.w), place_of(other)), 0.0));
+}
+
 // `solid`: the particle is one of a solid, on which only fluid acts.
 fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
     let support = f32(1u << constants.coordinate_bits);
     let h = constants.smoothing_length * constants.inverse_quantum;
     let soft = 1e-4 * h * h;
     let barrier_range = BARRIER_RANGE * parameters.particle_spacing * constants.inverse_quantum;
+    let brake_range = BRAKE_RANGE * parameters.particle_spacing * constants.inverse_quantum;
     // What the sum of pressures is multiplied by at the end undoes itself for the barrier and for viscosity.
-    let barrier_scale = BARRIER_STRENGTH * constants.sound_speed * constants.sound_speed / parameters.particle_spacing
+    let barrier_scale = constants.sound_speed * constants.sound_speed / parameters.particle_spacing
         / pressure_scale(own_motion.w);
     let viscous_scale = constants.viscosity_factor / constants.quantum;
     let inverse_spacing_value = 1.0 / constants.spacing_value;
@@ -96,9 +119,14 @@ fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
                         sums.friction += (slope * stick * sticks(group)) * relative;
                     }
                     let r = max(sqrt(r_squared), barrier_range / 3.0);
-                    let push = max(barrier_range / r - 1.0, 0.0);
-                    let approach = BARRIER_DAMPING / constants.sound_speed * dot(relative, offset) / r;
-                    along += barrier_scale * push * (1.0 + max(-approach, 0.0)) / r;
+                    let near = 1.0 - r / brake_range;
+                    if near > 0.0 {
+                        let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
+                        let approach = -dot(approach_velocity(own, own_motion, other, neighbor), offset)
+                            / (r * constants.sound_speed);
+                        let brake = BRAKE_STRENGTH * near * max(approach - BRAKE_LIMIT, 0.0);
+                        along += barrier_scale * (push + brake) / r;
+                    }
                 }
                 sums.pressure += along * offset;
                 let shape = kernel_shape(s);
@@ -166,18 +194,6 @@ fn shift_of(sums: Sums) -> vec4f {
     let speed = length(u);
     let shift = u * select(1.0, most / max(speed, 1e-30), speed > most);
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
-}
-
-// Own velocity of a particle of a solid, from where it is.
-fn solid_velocity(group: u32, place: Place) -> vec3f {
-    let n = group - GROUP_SOLID;
-    let surface = solid_table[n].surface_velocity.xyz;
-    if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
-        return surface;
-    }
-    let center = coordinate_of(solid_state[NOW + n].position.xyz - constants.origin.xyz);
-    let arm = wide(Vector(shortest(place - center)) * constants.quantum);
-    return surface + solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
 }
 
 // Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half

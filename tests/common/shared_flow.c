@@ -192,7 +192,56 @@ static void walls_hold_fast_fluid(const WeirBackend *backend)
     }
 }
 
+// Adds the momentum of the only solid, of that mass.
+static void add_body_momentum(WeirSim *sim, double mass, double momentum[3])
+{
+    uint32_t dimension = weir_sim_dimension(sim), first = weir_sim_fluid_slots(sim),
+             last = weir_sim_particle_count(sim);
+    float *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+    for (uint32_t i = first; i < last; ++i) {
+        for (uint32_t axis = 0; axis < dimension; ++axis)
+            momentum[axis] += mass / (last - first) * velocity[dimension * i + axis];
+    }
+    free(velocity);
+}
+
+// What fluid loses that meets a free body at the speed of sound the body gets, to round-off.
+static void a_body_gets_what_the_fluid_loses(const WeirBackend *backend)
+{
+    for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
+        WeirScene *scene = tank(dimension, 1.6, 1.6, 0.05);
+        CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", dimension == 3 ? "xyz" : "xy"),
+                    WEIR_OK);
+        weir_test_set(scene, "sound_speed", 20);
+        weir_test_gravity(scene, 0, 0);
+        CHECK_SCENE(scene,
+                    weir_scene_add_box(scene, (double[]){0.4, 0.5, 0.5}, (double[]){0.7, 0.8, 0.8},
+                                       (double[]){19, 5, 3}),
+                    WEIR_OK);
+        CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 1500), WEIR_OK);
+        CHECK_SCENE(scene,
+                    weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.75, 0.6, 0.6}, dimension),
+                    WEIR_OK);
+        CHECK_SCENE(scene,
+                    weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.95, 0.8, 0.8}, dimension),
+                    WEIR_OK);
+        double mass = 1500 * (dimension == 2 ? 0.04 : 0.008);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
+        WeirDiagnostics before = weir_test_diagnose(sim, false);
+        weir_test_step(sim, 40);
+        WeirDiagnostics after = weir_test_diagnose(sim, false);
+        double body[3] = {0, 0, 0};
+        add_body_momentum(sim, mass, body);
+        assert_true(body[0] > 0.1 * before.momentum[0]);
+        for (uint32_t axis = 0; axis < dimension; ++axis)
+            CHECK_NEAR(after.momentum[axis] + body[axis], before.momentum[axis], 1e-5 * before.momentum[0]);
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 static const WeirSharedTest tests[] = {
+    WEIR_SHARED_TEST(a_body_gets_what_the_fluid_loses),
     WEIR_SHARED_TEST(a_far_column_falls_as_the_near_one),
     WEIR_SHARED_TEST(periodic_fluid_moves_as_a_whole),
     WEIR_SHARED_TEST(run_until_ends_exactly),

@@ -1,12 +1,12 @@
-// Fluid thrown at walls of random shape at three times the Mach number that Weir warns of: nothing gets past the
-// second layer of particles, and all fluid stays in the simulation.
+// Fluid thrown at walls of random shape, up to the speed of sound, ten times what Weir warns of: nothing gets past the
+// second layer of particles, nothing blows up, and all fluid stays in the simulation.
 #include <math.h>
 #include <stdlib.h>
 
 #include "common/random_shapes.h"
 #include "core/scene_shape.h"
 
-static const double sound = 20;
+static const double sound = 20, machs[] = {0.3, 1};
 
 static WeirScene *ball_in_a_shell(uint32_t dimension, double spacing, double radius)
 {
@@ -55,11 +55,11 @@ static void polygons_hold(void **state)
 {
     (void)state;
     WeirRandom random = {.state = 21};
-    for (int round = 0; round < 10; ++round) {
+    for (int round = 0; round < 20; ++round) {
         WeirScene *scene = ball_in_a_shell(2, 0.04, 0.25);
         weir_test_random_polygon(scene, "walls", &random);
         double angle = weir_random_range(&random, 0, 6.28);
-        throw(scene, 0.3 * sound, (double[3]){cos(angle), sin(angle), 0}, 0.15);
+        throw(scene, machs[round % 2] * sound, (double[3]){cos(angle), sin(angle), 0}, 0.15);
         weir_scene_destroy(scene);
     }
 }
@@ -68,11 +68,11 @@ static void meshes_hold(void **state)
 {
     (void)state;
     WeirRandom random = {.state = 22};
-    for (int round = 0; round < 10; ++round) {
+    for (int round = 0; round < 20; ++round) {
         WeirScene *scene = ball_in_a_shell(3, 0.08, 0.25);
         weir_test_random_mesh(scene, "walls", &random);
         double angle = weir_random_range(&random, 0, 6.28);
-        throw(scene, 0.3 * sound, (double[3]){0.6 * cos(angle), sin(angle) * 0.6, 0.8}, 0.1);
+        throw(scene, machs[round % 2] * sound, (double[3]){0.6 * cos(angle), sin(angle) * 0.6, 0.8}, 0.1);
         weir_scene_destroy(scene);
     }
 }

@@ -107,6 +107,28 @@ static void piston_2d(WeirTestWorld *test)
     weir_test_world_motion(test, piston, rows, 3, false);
 }
 
+// Fluid that meets a resting body at 0.6 of the speed of sound: there the barrier brakes it.
+static void throw_at_body(WeirTestWorld *test, const double low[3], const double high[3])
+{
+    weir_test_world_fluid(test, (double[]){0.1, 0.1, 0.1}, (double[]){0.4, 0.3, 0.3}, 0.1, 0.1);
+    WeirParticles *particles = &test->world.particles;
+    for (uint32_t i = 0; i < particles->count; ++i) particles->velocity[particles->dimension * i] += 12;
+    WeirSolid *body = weir_test_world_solid(test, WEIR_SOLID_FREE, low, high, NOWHERE);
+    weir_test_world_body(test, body, low, high, 2000);
+}
+
+static void throw_2d(WeirTestWorld *test)
+{
+    *test = start(2, 1.2, 0.9, 0);
+    throw_at_body(test, (double[]){0.45, 0.15, 0}, (double[]){0.65, 0.4, 0});
+}
+
+static void throw_3d(WeirTestWorld *test)
+{
+    *test = start(3, 1, 0.6, 0.4);
+    throw_at_body(test, (double[]){0.45, 0.1, 0.1}, (double[]){0.6, 0.3, 0.35});
+}
+
 // A table that starts anew during the run.
 static void shaker_3d(WeirTestWorld *test)
 {
@@ -242,7 +264,7 @@ const WeirTestCase weir_test_cases[] = {
     {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
     {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 50},         {"tap_2d", tap_2d, 100},
     {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},         {"long_2d", long_2d, 60},
-    {"border_2d", border_2d, 60},
+    {"border_2d", border_2d, 60},   {"throw_2d", throw_2d, 15},       {"throw_3d", throw_3d, 15},
 };
 const uint32_t weir_test_case_count = sizeof weir_test_cases / sizeof weir_test_cases[0];
 

@@ -249,6 +249,9 @@ static inline void seal(const WeirWcsph *solver, uint32_t axis, WeirMask free, W
     }
 }
 
+// Share of the rest density below which fluid is not stretched, but torn: its tension would pull without bound.
+static const float least_density = 0.8f;
+
 static void finish_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
@@ -258,6 +261,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
     WeirWcsphParticles *to = &solver->sorted;
     const float limit = constants->speed_limit * constants->speed_limit;
     float dt = solver->dt, half = 0.5f * dt, rest_density = solver->parameters.rest_density;
+    const WeirLanes least = weir_lanes_fill((least_density - 1.0f) * rest_density);
     Maxima maxima = {.first_bad_id = UINT32_MAX};
     for (uint32_t i = begin; i < end; i += WEIR_LANES) {
         WeirMask fluid = fluid_lanes(to->group, i, end), free = free_lanes(to->group, i, end);
@@ -277,7 +281,8 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
             weir_lanes_store(to->velocity[axis] + i,
                              weir_lanes_select(fluid, v, weir_lanes_load(to->velocity[axis] + i)));
         }
-        excess = weir_lanes_select(fluid, excess + half * rate, excess);
+        WeirLanes later = weir_lanes_max(excess + half * rate, least);
+        excess = weir_lanes_select(fluid, later, excess);
         weir_lanes_store(to->excess + i, excess);
         maxima.fluid += fluid;
         maxima.speed2 = larger(maxima.speed2, speed2, fluid);

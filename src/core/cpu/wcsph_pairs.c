@@ -188,16 +188,17 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 
 // ---- forces ----
 
-// A last barrier keeps fast fluid out of walls: nearer than 0.85 spacings, where fluid at rest hardly comes,
-// solid particles repel the fluid by barrier_strength c0^2 / spacing (r0 / r - 1), damped for what approaches (n along x_ij,
-// pointing away from the solid), so that a splash at 0.4 of the speed of sound leaks nothing.
+// A last barrier keeps fast fluid out of walls. Nearer than 0.85 spacings, where fluid at rest hardly comes, solid
+// particles repel it; nearer than two they brake what approaches faster than a quarter of the speed of sound, far
+// above what the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
 // good, it would pull at whatever it meets.
 static const float spray_limit = 0.5f;
 // Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 300.0f;
-static const float barrier_range = 0.85f, barrier_strength = 4.0f, barrier_damping = 0.125f;
+static const float barrier_range = 0.85f, barrier_strength = 4.0f;
+static const float brake_range = 2.0f, brake_strength = 8.0f, brake_limit = 0.25f;
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
@@ -207,22 +208,24 @@ typedef struct ForceSums {
     Vector viscous;    // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, between fluid
     Vector laminar;    // sum 1 / rho_j F^ v, between fluid
     Vector friction;   // the same between fluid and no-slip solids
-    Vector barrier;    // sum max(0, r0 / r - 1) x / r between fluid and solid
+    Vector barrier;    // sum of barrier and brake along x / r, between fluid and solid
     WeirLanes surface; // sum 1 / rho_j F^ r^2
     WeirLanes filling; // sum 1 / rho_j W^
 } ForceSums;
 
+// `v`: relative to the solid's own velocity.
 INLINE void add_barrier(const WeirWcsphData *data, Vector *sum, WeirLanes distance, Vector x, Vector v,
                         Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float inverse_sound = 1.0f / constants->sound_speed;
-    float range = barrier_range * data->parameters->particle_spacing * constants->inverse_quantum;
+    const WeirLanes zero = {0};
+    float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
+    float range = barrier_range * spacing, inverse_brake = 1.0f / (brake_range * spacing);
     WeirLanes r = weir_lanes_max(distance, weir_lanes_fill(range / 3.0f));
-    WeirLanes push = weir_lanes_max(range / r - 1.0f, weir_lanes_fill(0.0f));
-    WeirLanes approach =
-        weir_lanes_max(dot(v, x, variant) / r * (-barrier_damping * inverse_sound), weir_lanes_fill(0.0f));
-    add_scaled(sum, push * (approach + 1.0f) / r, x, variant);
+    WeirLanes push = weir_lanes_max(range / r - 1.0f, zero) * barrier_strength;
+    WeirLanes near = rest_to(1.0f, r * inverse_brake) * brake_strength;
+    WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
+    add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
 // `solids`: the lanes are solid particles, on which only the fluid acts. In a group of both the sums of solid lanes are
@@ -238,6 +241,7 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     WeirLanes stick = weir_lanes_load(data->stick + begin);
     Vector vi = load((const float *const *)data->seen_velocity, begin, variant);
+    Vector wi = load(data->velocity, begin, variant);
     ForceSums sums = {0};
     for (uint32_t n = 0; n < group->run_count; ++n) {
         WeirMask place[3];
@@ -259,7 +263,9 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
                 if (laminar) add_scaled(&sums.laminar, slope, v, variant);
             } else {
                 add_scaled(&sums.friction, slope * (stick * data->stick[j]), v, variant);
-                add_barrier(data, &sums.barrier, r, x, v, variant);
+                Vector w = {wi.x - data->velocity[0][j], wi.y - data->velocity[1][j], {0}};
+                if (variant.three_dimensional) w.z = wi.z - data->velocity[2][j];
+                add_barrier(data, &sums.barrier, r, x, w, variant);
             }
             if (solids) continue;
             WeirLanes shape = kernel_shape(s, variant);
@@ -290,7 +296,7 @@ INLINE Vector acceleration_of(const WeirWcsphData *data, const ForceSums *sums, 
     WeirLanes viscous = common * weir_lanes_select(inside, weir_lanes_fill(constants->artificial_factor),
                                                    weir_lanes_fill(constants->viscosity_factor));
     float sound = constants->sound_speed;
-    float barrier = barrier_strength * sound * sound / data->parameters->particle_spacing;
+    float barrier = sound * sound / data->parameters->particle_spacing;
     Vector a = {{0}, {0}, {0}};
     WeirLanes *sum = &a.x;
     const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x, *v = &sums->viscous.x;
