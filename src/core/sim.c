@@ -34,6 +34,7 @@ struct WeirSim {
     double max_lag;
     double owed; // simulated seconds that the accumulator holds
     bool state_is_current;
+    bool motion_is_current;     // of `state` position, velocity and group at least
     bool warned_of_compression; // since the last reset
     WeirState state;
 };
@@ -194,7 +195,7 @@ static WeirStatus take_steps(WeirSim *sim, uint32_t steps, double until)
 {
     if (sim->status) return sim->status;
     if (steps == 0) return WEIR_OK;
-    sim->state_is_current = false;
+    sim->state_is_current = sim->motion_is_current = false;
     double solver_time = until - sim->time_given;
     WeirStatus status = pass_on(sim, sim->solver->interface->step(sim->solver, steps, solver_time));
     if (status) return status;
@@ -355,7 +356,7 @@ WeirStatus weir_sim_wait(WeirSim *sim)
 
 static WeirStatus replace_state(WeirSim *sim, const WeirParticles *particles)
 {
-    sim->state_is_current = false;
+    sim->state_is_current = sim->motion_is_current = false;
     WeirStatus status = pass_on(sim, sim->solver->interface->set_state(sim->solver, particles));
     if (status) return status;
     sim->steps_given = sim->steps;
@@ -441,7 +442,7 @@ WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *
     WeirParameters changed = sim->scene->parameters;
     WeirStatus status = weir_parameter_set(&changed, (uint32_t)index, name, values, count, &sim->error);
     if (status) return status;
-    sim->state_is_current = false;
+    sim->state_is_current = sim->motion_is_current = false;
     sim->scene->parameters = changed;
     make_constants(sim);
     weir_scene_advise(sim->scene);
@@ -479,17 +480,27 @@ WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool)
     return configure(sim);
 }
 
-WeirStatus weir_sim_state(WeirSim *sim, WeirState *state)
+// `motion`: position, velocity and group alone are wanted.
+static WeirStatus read_state(WeirSim *sim, bool motion, WeirState *state)
 {
     if (!sim->solver) return sim->status;
-    if (!sim->state_is_current) {
-        WeirStatus status = pass_on(sim, sim->solver->interface->read(sim->solver, &sim->state));
+    const WeirSolverInterface *interface = sim->solver->interface;
+    motion = motion && interface->read_motion;
+    if (!sim->state_is_current && !(motion && sim->motion_is_current)) {
+        WeirStatus status = pass_on(sim, motion ? interface->read_motion(sim->solver, &sim->state)
+                                                : interface->read(sim->solver, &sim->state));
         if (status) return status;
         sim->state.step += sim->steps_given;
-        sim->state_is_current = sim->state.step == sim->steps;
+        sim->motion_is_current = sim->state.step == sim->steps;
+        sim->state_is_current = !motion && sim->motion_is_current;
     }
     *state = sim->state;
     return WEIR_OK;
+}
+
+WeirStatus weir_sim_state(WeirSim *sim, WeirState *state)
+{
+    return read_state(sim, false, state);
 }
 
 uint32_t weir_field_components(WeirField field, uint32_t dimension)
@@ -507,8 +518,9 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
         return weir_fail(&sim->error, WEIR_ERROR_INPUT, "capacity: %zu floats; %zu are needed", capacity,
                          floats);
     }
-    WeirState state;
-    WeirStatus status = weir_sim_state(sim, &state);
+    bool motion = field == WEIR_FIELD_POSITION || field == WEIR_FIELD_VELOCITY || field == WEIR_FIELD_GROUP;
+    WeirState state = {0};
+    WeirStatus status = read_state(sim, motion, &state);
     if (status) return status;
     if (field == WEIR_FIELD_GROUP) {
         for (uint32_t i = 0; i < state.count; ++i) {

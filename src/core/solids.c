@@ -49,32 +49,38 @@ static void turn(float q[4], const float w[3], float dt)
 
 // ---- Prescribed motion ----
 
+// A motion at one time in double precision: a mean velocity is the small difference of two such.
+typedef struct Motion {
+    double time;
+    double displacement[3], rotation[3], displacement_rate[3], rotation_rate[3];
+} Motion;
+
 // Cubic Hermite between (f0, d0) and (f1, d1) at the share s of an interval `length`, and its rate.
 static void hermite(double s, double length, const float f0[3], const float d0[3], const float f1[3],
-                    const float d1[3], float value[3], float rate[3])
+                    const float d1[3], double value[3], double rate[3])
 {
     double s2 = s * s, s3 = s2 * s;
     for (int axis = 0; axis < 3; ++axis) {
         double a = f0[axis], b = length * d0[axis], c = f1[axis], d = length * d1[axis];
-        value[axis] = (float)((2 * s3 - 3 * s2 + 1) * a + (s3 - 2 * s2 + s) * b + (3 * s2 - 2 * s3) * c +
-                              (s3 - s2) * d);
-        rate[axis] =
-            (float)(((6 * s2 - 6 * s) * (a - c) + (3 * s2 - 4 * s + 1) * b + (3 * s2 - 2 * s) * d) / length);
+        value[axis] =
+            (2 * s3 - 3 * s2 + 1) * a + (s3 - 2 * s2 + s) * b + (3 * s2 - 2 * s3) * c + (s3 - s2) * d;
+        rate[axis] = ((6 * s2 - 6 * s) * (a - c) + (3 * s2 - 4 * s + 1) * b + (3 * s2 - 2 * s) * d) / length;
     }
 }
 
-void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time, WeirMotionRow *now)
+static Motion motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time)
 {
     double first = rows[0].time, last = rows[count - 1].time;
     if (repeats && last > first && time > last) time = first + fmod(time - first, last - first);
     bool before = time<first, after = time> last;
-    if (before || after || count == 1) {
-        *now = rows[before ? 0 : count - 1];
-        // Outside its table a motion stands still.
-        memset(now->displacement_rate, 0, sizeof now->displacement_rate);
-        memset(now->rotation_rate, 0, sizeof now->rotation_rate);
-        now->time = (float)time;
-        return;
+    Motion now = {.time = time};
+    if (before || after || count == 1) { // outside its table a motion stands still
+        const WeirMotionRow *row = &rows[before ? 0 : count - 1];
+        for (int axis = 0; axis < 3; ++axis) {
+            now.displacement[axis] = row->displacement[axis];
+            now.rotation[axis] = row->rotation[axis];
+        }
+        return now;
     }
     uint32_t low = 0, high = count - 1; // rows[low].time <= time < rows[high].time
     while (high - low > 1) {
@@ -86,17 +92,33 @@ void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, dou
     }
     const WeirMotionRow *a = &rows[low], *b = &rows[high];
     double length = (double)b->time - a->time, s = (time - a->time) / length;
-    *now = (WeirMotionRow){.time = (float)time};
     hermite(s, length, a->displacement, a->displacement_rate, b->displacement, b->displacement_rate,
-            now->displacement, now->displacement_rate);
-    hermite(s, length, a->rotation, a->rotation_rate, b->rotation, b->rotation_rate, now->rotation,
-            now->rotation_rate);
+            now.displacement, now.displacement_rate);
+    hermite(s, length, a->rotation, a->rotation_rate, b->rotation, b->rotation_rate, now.rotation,
+            now.rotation_rate);
+    return now;
+}
+
+void weir_motion_at(const WeirMotionRow *rows, uint32_t count, bool repeats, double time, WeirMotionRow *now)
+{
+    Motion exact = motion_at(rows, count, repeats, time);
+    now->time = (float)exact.time;
+    for (int axis = 0; axis < 3; ++axis) {
+        now->displacement[axis] = (float)exact.displacement[axis];
+        now->displacement_rate[axis] = (float)exact.displacement_rate[axis];
+        now->rotation[axis] = (float)exact.rotation[axis];
+        now->rotation_rate[axis] = (float)exact.rotation_rate[axis];
+    }
+}
+
+static const WeirMotionRow *rows_of(const WeirWorld *world, const WeirSolid *solid)
+{
+    return world->motion + solid->motion_first;
 }
 
 static void motion_of(const WeirWorld *world, const WeirSolid *solid, double time, WeirMotionRow *now)
 {
-    weir_motion_at(world->motion + solid->motion_first, solid->motion_count, solid->motion_repeats, time,
-                   now);
+    weir_motion_at(rows_of(world, solid), solid->motion_count, solid->motion_repeats, time, now);
 }
 
 static void place_driven(const WeirWorld *world, const WeirSolid *solid, double time, WeirSolidState *state)
@@ -193,15 +215,16 @@ static void kick_free(const WeirSolid *solid, const float gravity[4], float dt, 
 static void kick_driven(const WeirWorld *world, const WeirSolid *solid, double time, float dt,
                         WeirSolidState *state)
 {
-    WeirMotionRow begin, end;
-    motion_of(world, solid, time, &begin);
-    motion_of(world, solid, time + dt, &end);
+    const WeirMotionRow *rows = rows_of(world, solid);
+    Motion begin = motion_at(rows, solid->motion_count, solid->motion_repeats, time);
+    Motion end = motion_at(rows, solid->motion_count, solid->motion_repeats, time + dt);
+    // A table that starts anew jumps back: the rate is the table's own there.
+    bool jumps = end.time < begin.time;
     for (int axis = 0; axis < 3; ++axis) {
-        float v = dt > 0.0f ? (end.displacement[axis] - begin.displacement[axis]) / dt : 0.0f;
-        float w = dt > 0.0f ? (end.rotation[axis] - begin.rotation[axis]) / dt : 0.0f;
-        // A table that starts anew jumps back: the rate is the table's own there.
-        if (solid->motion_repeats && end.time < begin.time)
-            v = end.displacement_rate[axis], w = end.rotation_rate[axis];
+        double way = end.displacement[axis] - begin.displacement[axis];
+        double angle = end.rotation[axis] - begin.rotation[axis];
+        float v = (float)(jumps ? end.displacement_rate[axis] : dt > 0.0f ? way / dt : 0.0);
+        float w = (float)(jumps ? end.rotation_rate[axis] : dt > 0.0f ? angle / dt : 0.0);
         state->acceleration[axis] = dt > 0.0f ? (v - state->velocity[axis]) / dt : 0.0f;
         state->angular_acceleration[axis] = dt > 0.0f ? (w - state->angular_velocity[axis]) / dt : 0.0f;
         state->velocity[axis] = v;

@@ -60,6 +60,8 @@ typedef struct WeirSolverInterface {
     // WEIR_PENDING while the copy is under way. wcsph, after a blow-up: the last good state, on the CPU at most 64 steps
     // old, on the GPU that of the middle of the bad step.
     WeirStatus (*read)(WeirSolver *solver, WeirState *state);
+    // The same without evaluating: position, velocity, group and time alone. NULL where it would be no faster.
+    WeirStatus (*read_motion)(WeirSolver *solver, WeirState *state);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
 } WeirSolverInterface;
 

@@ -36,7 +36,8 @@ export function fillPoints(sim: Sim, colorBy: ColorBy, looksOfSolids: number[], 
   if (position) values.set(position, 0);
   const velocity = sim.read(Field.velocity);
   if (velocity) values.set(velocity, dimension * count);
-  const scalar = sim.read(colorBy === ColorBy.pressure ? Field.pressure : Field.density);
+  const field = colorBy === ColorBy.pressure ? Field.pressure : Field.density;
+  const scalar = colorBy === ColorBy.speed ? null : sim.read(field); // which costs an evaluation with wcsph
   if (scalar) values.set(scalar, 2 * dimension * count);
   const looks = values.subarray((2 * dimension + 1) * count);
   const group = sim.read(Field.group);

@@ -152,7 +152,7 @@ static void scatter(WeirWcsph *solver)
     weir_cells_place(&solver->cells, solver->pool, solver->constants.particle_count);
     weir_pool_run(solver->pool, solver->constants.cell_count + 1, WEIR_WCSPH_CELL_CHUNK, gather_chunk,
                   solver);
-    weir_wcsph_solid_velocities(solver, true, solver->sorted.velocity);
+    weir_wcsph_solid_velocities(solver, &solver->sorted, true, solver->sorted.velocity);
 }
 
 // ---- Pair passes ----
@@ -328,6 +328,13 @@ static WeirStatus wait_until_done(WeirSolver *base)
     return WEIR_OK;
 }
 
+static WeirStatus copied(WeirWcsph *solver, bool good)
+{
+    if (good) return WEIR_OK;
+    return weir_fail(&solver->base.message, WEIR_ERROR_MEMORY, "no memory to read %u particles",
+                     solver->constants.particle_count);
+}
+
 static WeirStatus read_state(WeirSolver *base, WeirState *state)
 {
     WeirWcsph *solver = (WeirWcsph *)base;
@@ -335,9 +342,14 @@ static WeirStatus read_state(WeirSolver *base, WeirState *state)
     evaluate(solver);
     weir_wcsph_sum_solid_forces(solver);
     solver->forces_wanted = false;
-    if (weir_wcsph_copy_state(solver, state)) return WEIR_OK;
-    return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory to read %u particles",
-                     solver->constants.particle_count);
+    return copied(solver, weir_wcsph_copy_state(solver, true, state));
+}
+
+static WeirStatus read_motion(WeirSolver *base, WeirState *state)
+{
+    WeirWcsph *solver = (WeirWcsph *)base;
+    weir_wcsph_solid_velocities(solver, &solver->state, true, solver->state.velocity);
+    return copied(solver, weir_wcsph_copy_state(solver, false, state));
 }
 
 static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
@@ -357,6 +369,7 @@ static const WeirSolverInterface wcsph_interface = {
     .poll = poll,
     .wait = wait_until_done,
     .read = read_state,
+    .read_motion = read_motion,
     .pass_times = pass_times,
 };
 

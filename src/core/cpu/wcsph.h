@@ -126,8 +126,9 @@ void weir_wcsph_time_step(WeirWcsph *solver);
 void weir_wcsph_begin_maxima(WeirWcsph *solver);
 
 // ---- wcsph_solids.c ----
-// Velocity of every solid's particles among the sorted ones, `surface`: with the surface's own.
-void weir_wcsph_solid_velocities(WeirWcsph *solver, bool surface, float *const velocity[3]);
+// Velocity of every solid's particles among `particles`, `surface`: with the surface's own.
+void weir_wcsph_solid_velocities(WeirWcsph *solver, const WeirWcsphParticles *particles, bool surface,
+                                 float *const velocity[3]);
 void weir_wcsph_walls(WeirWcsph *solver);
 void weir_wcsph_solids(WeirWcsph *solver);
 // Places the particles of moving solids.
@@ -144,5 +145,6 @@ void weir_wcsph_free(WeirWcsph *solver);
 void weir_wcsph_set_particles(WeirWcsph *solver, const WeirParticles *particles);
 void weir_wcsph_take_snapshot(WeirWcsph *solver);
 void weir_wcsph_restore_snapshot(WeirWcsph *solver);
-// Copies the evaluated state by id; false if memory runs out.
-bool weir_wcsph_copy_state(WeirWcsph *solver, WeirState *state);
+// Copies by id; false if memory runs out. `evaluated`: the sorted particles and what the passes found, else what moves of
+// the state.
+bool weir_wcsph_copy_state(WeirWcsph *solver, bool evaluated, WeirState *state);

@@ -168,7 +168,7 @@ void weir_wcsph_kick(WeirWcsph *solver)
 {
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, kick_chunk, solver);
     // A surface that slides along itself displaces no fluid.
-    weir_wcsph_solid_velocities(solver, false, solver->data.new_velocity);
+    weir_wcsph_solid_velocities(solver, &solver->sorted, false, solver->data.new_velocity);
 }
 
 // ---- finish ----

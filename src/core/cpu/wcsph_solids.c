@@ -23,6 +23,7 @@ static const float *local_of(const WeirWcsph *solver, uint32_t id)
 
 typedef struct Velocities {
     WeirWcsph *solver;
+    const WeirWcsphParticles *particles;
     float surface; // 1 with the surface's own velocity, 0 without
     float *const *velocity;
 } Velocities;
@@ -32,23 +33,25 @@ static void velocities_chunk(void *context, uint32_t begin, uint32_t end)
     const Velocities *target = context;
     const WeirWcsph *solver = target->solver;
     for (uint32_t i = begin; i < end; ++i) {
-        uint32_t group = solver->sorted.group[i];
+        uint32_t group = target->particles->group[i];
         if (!weir_group_is_solid(group)) continue;
         const WeirSolid *solid = solid_of(solver, group);
         float place[3], v[3] = {0.0f, 0.0f, 0.0f};
         if (is_moving(solid))
             weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
-                             local_of(solver, solver->sorted.id[i]), place, v);
+                             local_of(solver, target->particles->id[i]), place, v);
         for (int axis = 0; axis < 3; ++axis)
             target->velocity[axis][i] = v[axis] + target->surface * solid->surface_velocity[axis];
     }
 }
 
-void weir_wcsph_solid_velocities(WeirWcsph *solver, bool surface, float *const velocity[3])
+void weir_wcsph_solid_velocities(WeirWcsph *solver, const WeirWcsphParticles *particles, bool surface,
+                                 float *const velocity[3])
 {
     if (solver->world.solid_count == 0) return;
-    Velocities target = {solver, surface ? 1.0f : 0.0f, velocity};
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, velocities_chunk, &target);
+    Velocities target = {solver, particles, surface ? 1.0f : 0.0f, velocity};
+    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, velocities_chunk,
+                  &target);
 }
 
 typedef struct Places {

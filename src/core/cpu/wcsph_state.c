@@ -208,32 +208,54 @@ static bool make_host(WeirWcsph *solver)
     return true;
 }
 
-static void copy_chunk(void *context, uint32_t begin, uint32_t end)
+typedef struct Copy {
+    const WeirWcsph *solver;
+    const WeirWcsphParticles *from;
+} Copy;
+
+static void copy_motion_chunk(void *context, uint32_t begin, uint32_t end)
 {
-    WeirWcsph *solver = context;
-    const WeirWcsphParticles *sorted = &solver->sorted;
-    const WeirConstants *constants = &solver->constants;
-    WeirHostCopy *host = solver->host;
+    const Copy *copy = context;
+    const WeirConstants *constants = &copy->solver->constants;
+    const WeirWcsphParticles *from = copy->from;
+    WeirHostCopy *host = copy->solver->host;
     for (uint32_t i = begin; i < end; ++i) {
-        uint32_t id = sorted->id[i];
-        bool empty = sorted->group[i] == WEIR_GROUP_EMPTY;
+        uint32_t id = from->id[i];
+        bool empty = from->group[i] == WEIR_GROUP_EMPTY;
         for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
             size_t k = (size_t)constants->dimension * id + axis;
-            double place = (double)constants->origin[axis] + sorted->x[axis][i] * (double)constants->quantum;
+            double place = (double)constants->origin[axis] + from->x[axis][i] * (double)constants->quantum;
             host->position[k] = (float)place;
-            host->velocity[k] = empty ? 0.0f : sorted->velocity[axis][i];
-            host->acceleration[k] = empty ? 0.0f : solver->data.acceleration[axis][i];
+            host->velocity[k] = empty ? 0.0f : from->velocity[axis][i];
         }
-        host->density[id] = empty ? 0.0f : solver->parameters.rest_density + sorted->excess[i];
-        host->pressure[id] = empty ? 0.0f : solver->data.pressure[i];
-        host->group[id] = sorted->group[i];
+        host->group[id] = from->group[i];
     }
 }
 
-bool weir_wcsph_copy_state(WeirWcsph *solver, WeirState *state)
+static void copy_evaluated_chunk(void *context, uint32_t begin, uint32_t end)
+{
+    const Copy *copy = context;
+    const WeirWcsph *solver = copy->solver;
+    WeirHostCopy *host = solver->host;
+    uint32_t dimension = solver->constants.dimension;
+    for (uint32_t i = begin; i < end; ++i) {
+        uint32_t id = copy->from->id[i];
+        bool empty = copy->from->group[i] == WEIR_GROUP_EMPTY;
+        for (uint32_t axis = 0; axis < dimension; ++axis)
+            host->acceleration[(size_t)dimension * id + axis] =
+                empty ? 0.0f : solver->data.acceleration[axis][i];
+        host->density[id] = empty ? 0.0f : solver->parameters.rest_density + copy->from->excess[i];
+        host->pressure[id] = empty ? 0.0f : solver->data.pressure[i];
+    }
+}
+
+bool weir_wcsph_copy_state(WeirWcsph *solver, bool evaluated, WeirState *state)
 {
     if (!solver->host && !make_host(solver)) return false;
-    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, copy_chunk, solver);
+    uint32_t count = solver->constants.particle_count;
+    Copy copy = {solver, evaluated ? &solver->sorted : &solver->state};
+    weir_pool_run(solver->pool, count, WEIR_WCSPH_CHUNK, copy_motion_chunk, &copy);
+    if (evaluated) weir_pool_run(solver->pool, count, WEIR_WCSPH_CHUNK, copy_evaluated_chunk, &copy);
     const WeirHostCopy *host = solver->host;
     *state = (WeirState){
         .count = solver->constants.particle_count,
