@@ -5,9 +5,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 extern const char weir_case_elliptical_drop_scene[], weir_case_oscillating_drop_scene[],
-    weir_case_rotating_square_scene[], weir_case_free_drop_scene[], weir_case_elliptical_drop_reference[];
+    weir_case_rotating_square_scene[], weir_case_free_drop_scene[], weir_case_free_drop_scene_3d[],
+    weir_case_elliptical_drop_reference[];
 
 // Semi-axis of an ellipse of uniform density along an axis, from the variance of the positions: a^2 / 4. The variance of
 // the volume of each particle's own square is part of it.
@@ -218,7 +220,10 @@ const WeirCase weir_case_rotating_square = {
     .judge = judge_square,
 };
 
-// ---- Free drop ----
+// ---- Free drop: a square that turns, and a cube ----
+
+enum { FREE_2D, FREE_3D, FREE_RUNS };
+static const char *const free_names[FREE_RUNS] = {"2D", "3D"};
 
 typedef struct Free {
     uint32_t momentum, angular, energy; // curves
@@ -231,15 +236,39 @@ static const double free_end = 1.0;
 
 static void plan_free(WeirValidation *v)
 {
-    Free *data = v->data;
     plan_drop(v, "validation/free_drop/scene.json", weir_case_free_drop_scene,
               weir_by_resolution(v, 40.0, 100.0, 200.0), free_end, 0.02);
-    data->momentum =
-        weir_curve_add(v, "Momentum", "change over sum m |v|", "time", "s", "change", "1", false);
-    data->angular =
-        weir_curve_add(v, "Angular momentum", "change over the start's", "time", "s", "change", "1", false);
-    data->energy = weir_curve_add(v, "Energy", "kinetic and elastic, over the start's", "time", "s", "ratio",
-                                  "1", false);
+    plan_drop(v, "validation/free_drop/scene_3d.json", weir_case_free_drop_scene_3d,
+              weir_by_resolution(v, 15.0, 40.0, 80.0), free_end, 0.02);
+    for (int run = 0; run < FREE_RUNS; ++run) {
+        Free *data = (Free *)v->data + run;
+        char name[80];
+        snprintf(name, sizeof name, "change over sum m |v|, %s", free_names[run]);
+        data->momentum = weir_curve_add(v, "Momentum", name, "time", "s", "change", "1", false);
+        snprintf(name, sizeof name, "change over the start's, %s", free_names[run]);
+        data->angular = weir_curve_add(v, "Angular momentum", name, "time", "s", "change", "1", false);
+        snprintf(name, sizeof name, "kinetic and elastic, over the start's, %s", free_names[run]);
+        data->energy = weir_curve_add(v, "Energy", name, "time", "s", "ratio", "1", false);
+    }
+}
+
+// Scenes know no field that turns in 3D: 1 rad/s about z is added to the cube's velocity.
+static WeirStatus begin_free(WeirValidation *v, WeirSim *sim)
+{
+    if (v->run != FREE_3D) return WEIR_OK;
+    WeirState state;
+    WeirStatus status = weir_sim_state(sim, &state);
+    if (status) return status;
+    float *velocity = malloc(3 * (size_t)state.count * sizeof *velocity);
+    if (!velocity) return WEIR_ERROR_MEMORY;
+    for (size_t i = 0; i < state.count; ++i) {
+        velocity[3 * i] = state.velocity[3 * i] + state.position[3 * i + 1];
+        velocity[3 * i + 1] = state.velocity[3 * i + 1] - state.position[3 * i];
+        velocity[3 * i + 2] = state.velocity[3 * i + 2];
+    }
+    status = weir_sim_set_state(sim, state.position, velocity);
+    free(velocity);
+    return status;
 }
 
 static void start_free(Free *data, const WeirFluidSums *sums, const WeirSample *sample)
@@ -254,7 +283,7 @@ static void start_free(Free *data, const WeirFluidSums *sums, const WeirSample *
 
 static void sample_free(WeirValidation *v, const WeirSample *sample)
 {
-    Free *data = v->data;
+    Free *data = (Free *)v->data + v->run;
     WeirFluidSums sums = weir_fluid_sums(sample);
     if (sample->time == 0.0) start_free(data, &sums, sample);
     double change2 = 0.0;
@@ -274,24 +303,31 @@ static void sample_free(WeirValidation *v, const WeirSample *sample)
 
 static void judge_free(WeirValidation *v)
 {
-    const Free *data = v->data;
-    bool measured = data->steps > 0;
-    weir_gate_add(v, "change of momentum per step over sum m |v|", "1", WEIR_GATE_AT_MOST,
-                  measured ? data->momentum_drift : (double)NAN, NAN, 1e-7);
-    weir_gate_add(v, "change of angular momentum", "1", WEIR_GATE_AT_MOST,
-                  measured ? data->angular_drift : (double)NAN, NAN, weir_limit(v, 2e-3, 1e-3));
-    weir_gate_add(v, "growth of energy above the start's", "1", WEIR_GATE_AT_MOST,
-                  measured ? data->energy_growth : (double)NAN, NAN, 1e-4);
+    for (int run = 0; run < FREE_RUNS; ++run) {
+        const Free *data = (const Free *)v->data + run;
+        bool measured = data->steps > 0;
+        char name[80];
+        snprintf(name, sizeof name, "change of momentum per step over sum m |v|, %s", free_names[run]);
+        weir_gate_add(v, name, "1", WEIR_GATE_AT_MOST, measured ? data->momentum_drift : (double)NAN, NAN,
+                      1e-7);
+        snprintf(name, sizeof name, "change of angular momentum, %s", free_names[run]);
+        weir_gate_add(v, name, "1", WEIR_GATE_AT_MOST, measured ? data->angular_drift : (double)NAN, NAN,
+                      weir_limit(v, 2e-3, 1e-3));
+        snprintf(name, sizeof name, "growth of energy above the start's, %s", free_names[run]);
+        weir_gate_add(v, name, "1", WEIR_GATE_AT_MOST, measured ? data->energy_growth : (double)NAN, NAN,
+                      1e-4);
+    }
 }
 
 const WeirCase weir_case_free_drop = {
-    .info = {"free_drop", "Free drop without walls",
-             "A square of fluid flies and turns in empty space: momentum to the round-off of float32 (6e-8) "
-             "per step, "
-             "angular momentum, and energy, which may only fall.",
-             "conservation laws"},
-    .data_size = sizeof(Free),
+    .info =
+        {"free_drop", "Free drops without walls",
+         "A square (2D) and a cube (3D) of fluid fly and turn in empty space: momentum to the round-off of "
+         "float32 (6e-8) per step, angular momentum, and energy, which may only fall.",
+         "conservation laws"},
+    .data_size = FREE_RUNS * sizeof(Free),
     .plan = plan_free,
+    .begin = begin_free,
     .sample = sample_free,
     .judge = judge_free,
 };
