@@ -275,6 +275,64 @@ static void momentum_is_kept_to_round_off(const WeirBackend *backend)
     }
 }
 
+static void torn(const double place[3], float *density, float velocity[3])
+{
+    (void)velocity;
+    *density = place[0] > 0 ? 700 : 1000;
+}
+
+// Fluid holds no tension below 0.8 of its density, and what is denser is left alone.
+static void torn_fluid_does_not_pull(const WeirBackend *backend)
+{
+    WeirScene *scene = block(2);
+    WeirSim *sim = start(scene, backend, torn);
+    uint32_t count = weir_sim_particle_count(sim);
+    weir_test_step(sim, 1);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+          *density = weir_test_read(sim, WEIR_FIELD_DENSITY);
+    for (uint32_t i = 0; i < count; ++i) CHECK_NEAR(density[i], position[2 * i] > 0 ? 800 : 1000, 0.1);
+    free(position);
+    free(density);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
+static void finest_shear(const double place[3], float *density, float velocity[3])
+{
+    *density = 1000;
+    velocity[1] = (int)floor(place[0] / spacing) % 2 ? 0.01f : -0.01f;
+}
+
+// The time step's viscous limit is what the finest shear needs: neighbouring columns that pass one another, the stiffest
+// flow for viscosity, lose most of their speed in a step, and do not turn round.
+static void the_finest_shear_decays_within_a_step(const WeirBackend *backend)
+{
+    for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
+        WeirScene *scene = block(dimension);
+        weir_test_choose(scene, "stepping", "adaptive");
+        weir_test_set(scene, "viscosity", 1e4);
+        WeirSim *sim = start(scene, backend, finest_shear);
+        weir_test_step(sim, 1);
+        float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+              *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+        uint32_t found = 0;
+        for (uint32_t i = 0; i < weir_sim_particle_count(sim); ++i) {
+            if (!inside(sim, position + dimension * i)) continue;
+            double place[3] = {position[dimension * i]};
+            float density, before[3] = {0, 0, 0};
+            finest_shear(place, &density, before);
+            double left = velocity[dimension * i + 1] / before[1];
+            assert_true(left > 0 && left < 0.5);
+            ++found;
+        }
+        assert_true(found >= SITES);
+        free(position);
+        free(velocity);
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(pressure_gradient_of_a_linear_field),
     WEIR_SHARED_TEST(laplacian_of_a_quadratic_velocity),
@@ -282,6 +340,8 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(continuity_of_an_expansion),
     WEIR_SHARED_TEST(diffusion_of_a_density_bulge),
     WEIR_SHARED_TEST(hydrostatic_density_does_not_diffuse),
+    WEIR_SHARED_TEST(torn_fluid_does_not_pull),
+    WEIR_SHARED_TEST(the_finest_shear_decays_within_a_step),
     WEIR_SHARED_TEST(momentum_is_kept_to_round_off),
 };
 WEIR_SHARED_GROUP(terms, tests);
