@@ -68,6 +68,7 @@ typedef struct WeirWcsph {
     WeirWcsphParticles sorted; // the same by cell, empty slots last
     uint32_t active;           // sorted particles that are not empty
     float *sums;               // one block for all arrays of `data` that are not of `sorted`
+    uint64_t *seen;            // of `data`
     WeirWcsphData data;        // of the sorted particles
     WeirWorld world;           // without particles
     WeirSolidState *solids;

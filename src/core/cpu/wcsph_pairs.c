@@ -70,6 +70,14 @@ INLINE Vector offset_to(const WeirWcsphData *data, const WeirMask place[3], uint
     return offset;
 }
 
+// a less the vector of j.
+INLINE Vector less(Vector a, const float *const array[3], uint32_t j, Variant variant)
+{
+    Vector v = {a.x - array[0][j], a.y - array[1][j], {0}};
+    if (variant.three_dimensional) v.z = a.z - array[2][j];
+    return v;
+}
+
 INLINE WeirLanes lanes_power4(WeirLanes a)
 {
     WeirLanes square = a * a;
@@ -186,6 +194,39 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
     }
 }
 
+// ---- What a group saw ----
+
+// Of every BLOCK candidates the bits of those within the support of some lane: `forces` tests and notes, `continuity`
+// visits these alone. Where a crowd has too many blocks for its words, the rest is tested again.
+enum { BLOCK = 64 };
+
+typedef struct Seen {
+    uint64_t *word, *end;
+} Seen;
+
+INLINE Seen seen_by(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin)
+{
+    uint64_t *word = data->seen + (size_t)WEIR_SEEN_WORDS * begin;
+    return (Seen){word, word + (size_t)WEIR_SEEN_WORDS * group->lanes};
+}
+
+INLINE void note_seen(Seen *seen, uint64_t bits)
+{
+    if (seen->word < seen->end) *seen->word++ = bits;
+}
+
+// The bits of the next block, which has `count` candidates.
+INLINE uint64_t next_seen(Seen *seen, uint32_t count)
+{
+    if (seen->word < seen->end) return *seen->word++;
+    return UINT64_MAX >> (BLOCK - count);
+}
+
+INLINE uint32_t block_end(const WeirRun *run, uint32_t first)
+{
+    return run->end - first < BLOCK ? run->end : first + BLOCK;
+}
+
 // ---- forces ----
 
 // A last barrier keeps fast fluid out of walls. Nearer than 0.85 spacings, where fluid at rest hardly comes, solid
@@ -228,51 +269,80 @@ INLINE void add_barrier(const WeirWcsphData *data, Vector *sum, WeirLanes distan
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
-// `solids`: the lanes are solid particles, on which only the fluid acts. In a group of both the sums of solid lanes are
-// nobody's.
+// What is the same for all candidates of a group.
+typedef struct ForceLanes {
+    float inverse_support, inverse_spacing, soft;
+    bool viscous, laminar, clustering; // terms that are not switched off
+    WeirLanes stick;
+    Vector seen_velocity, velocity;
+} ForceLanes;
+
+INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    float h = constants->smoothing_length * constants->inverse_quantum;
+    return (ForceLanes){
+        .inverse_support = constants->inverse_support,
+        .inverse_spacing = 1.0f / constants->spacing_value,
+        .soft = 1e-4f * h * h,
+        .viscous = constants->viscosity_factor != 0.0f,
+        .laminar = constants->laminar_factor != 0.0f,
+        .clustering = data->parameters->shifting != 0.0f,
+        .stick = weir_lanes_load(data->stick + begin),
+        .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
+        .velocity = load(data->velocity, begin, variant),
+    };
+}
+
+// Adds candidate j at x = x_i - x_j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of
+// both the sums of solid lanes are nobody's.
+INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
+                       Variant variant, bool solids, ForceSums *sums)
+{
+    WeirLanes r = weir_lanes_sqrt(r2), s = r * own->inverse_support;
+    WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
+    Vector v = less(own->seen_velocity, (const float *const *)data->seen_velocity, j, variant);
+    add_scaled(&sums->pressure, slope * data->pressure[j], x, variant);
+    add_scaled(&sums->gradient, slope, x, variant);
+    if (data->is_fluid[j] != 0.0f && !solids) {
+        if (own->viscous)
+            add_scaled(&sums->viscous, dot(v, x, variant) / (r2 + own->soft) * slope, x, variant);
+        if (own->laminar) add_scaled(&sums->laminar, slope, v, variant);
+    } else {
+        add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
+        add_barrier(data, &sums->barrier, r, x, less(own->velocity, data->velocity, j, variant), variant);
+    }
+    if (solids) return;
+    WeirLanes shape = kernel_shape(s, variant);
+    sums->filling += shape * data->inverse_density[j];
+    sums->surface += slope * r2;
+    if (own->clustering)
+        add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
+}
+
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                             Variant variant, bool solids)
 {
-    const WeirConstants *constants = data->constants;
-    float inverse_support = constants->inverse_support, inverse_spacing = 1.0f / constants->spacing_value;
-    float h = constants->smoothing_length * constants->inverse_quantum, soft = 1e-4f * h * h;
-    bool viscous = constants->viscosity_factor != 0.0f, laminar = constants->laminar_factor != 0.0f;
-    bool clustering = data->parameters->shifting != 0.0f;
+    float inverse_support = data->constants->inverse_support;
     WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
-    WeirLanes stick = weir_lanes_load(data->stick + begin);
-    Vector vi = load((const float *const *)data->seen_velocity, begin, variant);
-    Vector wi = load(data->velocity, begin, variant);
+    ForceLanes own = force_lanes(data, begin, variant);
+    Seen seen = seen_by(data, group, begin);
     ForceSums sums = {0};
-    for (uint32_t n = 0; n < group->run_count; ++n) {
+    for (const WeirRun *run = group->run; run < group->run + group->run_count; ++run) {
         WeirMask place[3];
-        load_place(data, begin, &group->run[n], place);
-        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
-            bool fluid = data->is_fluid[j] != 0.0f;
-            if (solids && !fluid) continue;
-            Vector x = offset_to(data, place, j, variant);
-            WeirLanes r2 = dot(x, x, variant);
-            if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
-            WeirLanes r = weir_lanes_sqrt(r2), s = r * inverse_support;
-            WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
-            Vector v = {vi.x - data->seen_velocity[0][j], vi.y - data->seen_velocity[1][j], {0}};
-            if (variant.three_dimensional) v.z = vi.z - data->seen_velocity[2][j];
-            add_scaled(&sums.pressure, slope * data->pressure[j], x, variant);
-            add_scaled(&sums.gradient, slope, x, variant);
-            if (fluid && !solids) {
-                if (viscous) add_scaled(&sums.viscous, dot(v, x, variant) / (r2 + soft) * slope, x, variant);
-                if (laminar) add_scaled(&sums.laminar, slope, v, variant);
-            } else {
-                add_scaled(&sums.friction, slope * (stick * data->stick[j]), v, variant);
-                Vector w = {wi.x - data->velocity[0][j], wi.y - data->velocity[1][j], {0}};
-                if (variant.three_dimensional) w.z = wi.z - data->velocity[2][j];
-                add_barrier(data, &sums.barrier, r, x, w, variant);
+        load_place(data, begin, run, place);
+        for (uint32_t first = run->begin, end; first < run->end; first = end) {
+            end = block_end(run, first);
+            uint64_t bits = 0;
+            for (uint32_t j = first; j < end; ++j) {
+                if (solids && data->is_fluid[j] == 0.0f) continue;
+                Vector x = offset_to(data, place, j, variant);
+                WeirLanes r2 = dot(x, x, variant);
+                if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
+                bits |= UINT64_C(1) << (j - first);
+                add_forces(data, &own, j, x, r2, variant, solids, &sums);
             }
-            if (solids) continue;
-            WeirLanes shape = kernel_shape(s, variant);
-            sums.filling += shape * data->inverse_density[j];
-            sums.surface += slope * r2;
-            if (clustering)
-                add_scaled(&sums.clustering, slope * lanes_power4(shape * inverse_spacing), x, variant);
+            if (!solids) note_seen(&seen, bits);
         }
     }
     return sums;
@@ -421,7 +491,6 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
     const WeirConstants *constants = data->constants;
     const WeirParameters *parameters = data->parameters;
     float inverse_support = constants->inverse_support, c0 = constants->sound_speed;
-    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     float hydrostatic[3]; // density by height, per quantum
     for (int axis = 0; axis < 3; ++axis) {
         hydrostatic[axis] =
@@ -430,22 +499,25 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
     WeirLanes own = weir_lanes_load(data->excess + begin), rho = own + parameters->rest_density;
     Vector vi = load((const float *const *)data->new_velocity, begin, variant);
     WeirLanes divergence = {0}, diffusion = {0};
-    for (uint32_t n = 0; n < group->run_count; ++n) {
+    Seen seen = seen_by(data, group, begin);
+    for (const WeirRun *run = group->run; run < group->run + group->run_count; ++run) {
         WeirMask place[3];
-        load_place(data, begin, &group->run[n], place);
-        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
-            Vector x = offset_to(data, place, j, variant);
-            WeirLanes r2 = dot(x, x, variant);
-            if (!weir_lanes_any_below(r2, support2)) continue;
-            WeirLanes slope =
-                kernel_slope(weir_lanes_sqrt(r2) * inverse_support, variant) * data->inverse_density[j];
-            Vector v = {vi.x - data->new_velocity[0][j], vi.y - data->new_velocity[1][j], {0}};
-            if (variant.three_dimensional) v.z = vi.z - data->new_velocity[2][j];
-            divergence += slope * dot(v, x, variant);
-            // rho_j - rho_i less what the height between them makes
-            WeirLanes excess = data->excess[j] - own + x.x * hydrostatic[0] + x.y * hydrostatic[1];
-            if (variant.three_dimensional) excess += x.z * hydrostatic[2];
-            diffusion += slope * excess * data->is_fluid[j];
+        load_place(data, begin, run, place);
+        for (uint32_t first = run->begin, end; first < run->end; first = end) {
+            end = block_end(run, first);
+            for (uint64_t bits = next_seen(&seen, end - first); bits != 0; bits &= bits - 1) {
+                uint32_t j = first + (uint32_t)__builtin_ctzll(bits);
+                Vector x = offset_to(data, place, j, variant);
+                WeirLanes r2 = dot(x, x, variant);
+                WeirLanes slope =
+                    kernel_slope(weir_lanes_sqrt(r2) * inverse_support, variant) * data->inverse_density[j];
+                Vector v = less(vi, (const float *const *)data->new_velocity, j, variant);
+                divergence += slope * dot(v, x, variant);
+                // rho_j - rho_i less what the height between them makes
+                WeirLanes excess = data->excess[j] - own + x.x * hydrostatic[0] + x.y * hydrostatic[1];
+                if (variant.three_dimensional) excess += x.z * hydrostatic[2];
+                diffusion += slope * excess * data->is_fluid[j];
+            }
         }
     }
     float volume = constants->particle_mass * constants->gradient_factor;

@@ -6,6 +6,7 @@
 
 // What the pair passes read and write, in the order of the sorted particles; every array has WEIR_PAIRS_PADDING
 // elements more than particles. Vectors have three arrays; the third is 0 in 2D.
+enum { WEIR_SEEN_WORDS = 3 }; // per particle
 typedef struct WeirWcsphData {
     const WeirParameters *parameters;
     const WeirConstants *constants;
@@ -25,8 +26,9 @@ typedef struct WeirWcsphData {
     float *shift[3];          // shifting velocity, m/s
     float *shift_rate;        // what shifting does to the density: drho/dt / rho, 1/s
     float *rate;              // drho/dt, kg/(m^3 s)
-    float *weight;            // walls: sum of W, 0 without fluid in reach
-    float *extrapolated[3];   // walls: sum_j rho_j x_wj W / sum W, kg/m^2
+    uint64_t *seen; // WEIR_SEEN_WORDS per particle: which candidates its group saw, of forces for continuity
+    float *weight;  // walls: sum of W, 0 without fluid in reach
+    float *extrapolated[3]; // walls: sum_j rho_j x_wj W / sum W, kg/m^2
 } WeirWcsphData;
 
 typedef struct WeirWcsphPasses {

@@ -46,7 +46,8 @@ static bool make_sums(WeirWcsph *solver, size_t size)
     data->is_fluid = next, next += size;
     data->stick = next, next += size;
     data->needs_force = next;
-    return true;
+    data->seen = solver->seen = calloc(WEIR_SEEN_WORDS * size, sizeof *solver->seen);
+    return data->seen != NULL;
 }
 
 // A copy from malloc of `count` elements; NULL for none, with *good cleared if memory runs out.
@@ -116,6 +117,7 @@ void weir_wcsph_free(WeirWcsph *solver)
     free(solver->snapshot.particles.x[0]);
     free(solver->snapshot.solids);
     free(solver->sums);
+    free(solver->seen);
     weir_world_free(&solver->world);
     free(solver->solids);
     free(solver->emitters);
