@@ -231,17 +231,19 @@ static int measure_case(Bench *bench, const WeirBenchCase *bench_case, uint32_t 
     return exit_status;
 }
 
+// A case that fails does not keep the others from being measured.
 static int measure_suite(Bench *bench)
 {
     const WeirBenchSuite *suite = bench->plan.suite;
     double scale = bench->options.scale > 0.0 ? bench->options.scale : 1.0;
-    int exit_status = WEIR_EXIT_DONE;
-    for (size_t k = 0; exit_status == WEIR_EXIT_DONE && k < suite->item_count; ++k) {
+    int worst = WEIR_EXIT_DONE;
+    for (size_t k = 0; k < suite->item_count; ++k) {
         bench->item = &suite->items[k];
-        double count = fmax(1.0, floor(scale * bench->item->count + 0.5));
-        exit_status = measure_case(bench, weir_bench_case(bench->item->name), (uint32_t)fmin(count, 2e8));
+        double count = fmin(fmax(1.0, floor(scale * bench->item->count + 0.5)), 2e8);
+        int exit_status = measure_case(bench, weir_bench_case(bench->item->name), (uint32_t)count);
+        if (exit_status != WEIR_EXIT_DONE) worst = exit_status;
     }
-    return exit_status;
+    return worst;
 }
 
 static int measure_all(Bench *bench)
@@ -279,7 +281,7 @@ static int measure_and_report(Bench *bench)
     if (!open_gpu(bench)) return WEIR_EXIT_FAILED;
     bench->rows = json_array();
     int exit_status = measure_all(bench);
-    if (exit_status == WEIR_EXIT_DONE && bench->earlier &&
+    if (bench->earlier && json_array_size(bench->rows) > 0 &&
         !weir_bench_compare(bench->rows, bench->earlier, bench->options.compare)) {
         exit_status = WEIR_EXIT_FAILED;
     }

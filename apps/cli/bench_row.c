@@ -11,14 +11,15 @@
 
 enum {
     MAX_REPETITIONS = 64,
-    ANEW_BATCH = 256, // steps; the fluid of a batch is still the scene's start
+    ANEW_BATCH = 256, // steps; the fluid of a batch is still much as it started
     MAX_BATCH = 1024,
     SETTLING_STEPS = 200, // of a fluid whose batches follow one another, before the first
 };
 
 typedef struct Measurement {
     WeirSim *sim;
-    bool anew; // every batch starts from the scene's start
+    const WeirBenchCase *bench_case; // NULL: a scene file
+    bool anew;                       // every batch starts from the same fluid
     const WeirBenchEffort *effort;
     double times[MAX_REPETITIONS]; // s per step
     uint32_t count;
@@ -30,10 +31,16 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static WeirStatus start_anew(const Measurement *m)
+{
+    WeirStatus status = weir_sim_reset(m->sim);
+    return status || !m->bench_case ? status : weir_bench_prepare(m->bench_case, m->sim);
+}
+
 // Wall seconds of `steps` steps; negative if something failed.
 static double time_steps(const Measurement *m, uint32_t steps)
 {
-    if (m->anew && (weir_sim_reset(m->sim) || weir_sim_step(m->sim, 1) || weir_sim_wait(m->sim))) return -1.0;
+    if (m->anew && (start_anew(m) || weir_sim_step(m->sim, 1) || weir_sim_wait(m->sim))) return -1.0;
     double start = weir_wall_time();
     if (weir_sim_step(m->sim, steps) || weir_sim_wait(m->sim) || weir_sim_poll(m->sim)) return -1.0;
     return weir_wall_time() - start;
@@ -120,10 +127,13 @@ WeirStatus weir_bench_measure(const WeirScene *scene, const WeirBenchCase *bench
         fprintf(stderr, "weir bench: memory ran out\n");
         return WEIR_ERROR_MEMORY;
     }
-    Measurement m = {.sim = sim, .anew = !bench_case || weir_bench_starts_anew(bench_case), .effort = effort};
+    Measurement m = {.sim = sim,
+                     .bench_case = bench_case,
+                     .anew = !bench_case || weir_bench_starts_anew(bench_case),
+                     .effort = effort};
     WeirNeighborCount near = {0};
     WeirStatus status = weir_sim_wait(sim);
-    if (!status && bench_case) status = weir_bench_prepare(bench_case, sim);
+    if (!status && !m.anew) status = weir_bench_prepare(bench_case, sim);
     if (!status && !measure_steps(&m)) status = WEIR_ERROR_DEVICE;
     double memory =
         weir_sim_device_memory(sim) > 0 ? (double)weir_sim_device_memory(sim) : allocated_bytes() - before;

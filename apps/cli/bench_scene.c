@@ -51,7 +51,7 @@ bool weir_bench_is_wcsph(const WeirBenchCase *bench_case)
 
 bool weir_bench_starts_anew(const WeirBenchCase *bench_case)
 {
-    return bench_case->kind <= WEIR_BENCH_DAM;
+    return bench_case->kind <= WEIR_BENCH_COMPRESSED;
 }
 
 // ---- mueller ----
@@ -154,7 +154,7 @@ static void add_far_particle(WeirScene *scene, const Shape *shape)
         min[axis] = 30.0 * shape->size[axis];
         max[axis] = min[axis] + spacing;
     }
-    weir_scene_add_box(scene, min, max, (double[3]){-10.0, 0.0, 0.0});
+    weir_scene_add_box(scene, min, max, (double[3]){-3.0, 0.0, 0.0});
 }
 
 // Nozzles of four spacings over a pool, eight apart, blowing down.

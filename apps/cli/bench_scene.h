@@ -10,6 +10,7 @@ typedef enum WeirBenchKind {
     // wcsph
     WEIR_BENCH_BLOCK,      // a block that floats in space, without walls
     WEIR_BENCH_DAM,        // a column about to collapse, in a tank of wall particles
+    WEIR_BENCH_COMPRESSED, // a block pressed to three times its density
     WEIR_BENCH_SPLASH,     // the same when it has hit the other side
     WEIR_BENCH_POOL,       // at rest in such a tank, with a free surface
     WEIR_BENCH_BOX,        // a closed box of wall particles, full, stirred by vortices at Mach 0.1
@@ -17,7 +18,6 @@ typedef enum WeirBenchKind {
     WEIR_BENCH_FAR,        // a block, and one fast particle 30 of its sides away along each axis
     WEIR_BENCH_THIN,       // a sheet (3D: a rod) 1000 times as long as high
     WEIR_BENCH_EMITTERS,   // a pool under one emitter per 1000 particles, at most as many as a scene may have
-    WEIR_BENCH_COMPRESSED, // a block pressed to three times its density
 } WeirBenchKind;
 
 typedef struct WeirBenchCase {
@@ -36,7 +36,7 @@ typedef struct WeirBenchCase {
 // NULL if there is none of that name.
 const WeirBenchCase *weir_bench_case(const char *name);
 bool weir_bench_is_wcsph(const WeirBenchCase *bench_case);
-// True if every batch of steps starts from the scene's start; otherwise they follow one another.
+// True if every batch of steps starts from the same fluid, for the fluid changes at once; otherwise they follow one another.
 bool weir_bench_starts_anew(const WeirBenchCase *bench_case);
 // A block of exactly `count` particles (wcsph: about as many). NULL if memory runs out; otherwise weir_scene_check()
 // has the last word.
