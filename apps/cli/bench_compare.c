@@ -47,7 +47,9 @@ static json_t *field_json(const char *column, const char *field)
 static json_t *read_csv(FILE *file)
 {
     char header[LINE_LENGTH], line[LINE_LENGTH], *columns[MAX_COLUMNS], *fields[MAX_COLUMNS];
-    if (!fgets(header, sizeof header, file)) return NULL;
+    do {
+        if (!fgets(header, sizeof header, file)) return NULL;
+    } while (header[0] == '#');
     size_t column_count = split_line(header, columns);
     json_t *rows = json_array();
     while (fgets(line, sizeof line, file)) {

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""The chart of docs/performance.md from the CSV files in docs/performance.
+
+    tools/performance_chart.py                         write docs/performance/speed.svg
+    tools/performance_chart.py --prototype TEXT        turn the lab prototype's table into CSV, to standard output
+
+Every file NAME.csv of `weir bench --csv` becomes a line per dimension (its cases box_2d and box_3d on the GPU);
+prototype-*.csv and targets.csv stand beside them. Needs Debian's python3-matplotlib.
+"""
+
+import argparse
+import csv
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+from validation_report import COLORS, svg_of  # noqa: E402
+
+FOLDER = Path(__file__).resolve().parent.parent / "docs/performance"
+CASES = {"box_2d": "2D, n about 20", "box_3d": "3D, n about 37"}
+# Of the prototype's line: variant (p8: packed 2D positions), workgroup, kernel, dimension, N, n, candidates | ms, rate.
+LINE = re.compile(r"(\S+)\s+\d+ \w (\d)\s+(\d+)\s+([\d.]+)\s+([\d.]+) \|\s+([\d.]+)\s+([\d.]+) \|")
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def convert_prototype(path):
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(["scene", "variant", "particles", "mean_neighbors", "ms_per_step", "particle_steps_per_second"])
+    found = 0
+    for line in Path(path).read_text().splitlines():
+        match = LINE.match(line)
+        if match:
+            variant, dimension, count, neighbors, _, ms, rate = match.groups()
+            writer.writerow([f"box_{dimension}d", variant.removesuffix("-p8"), count, neighbors, ms, f"{float(rate) * 1e6:.5g}"])
+            found += 1
+    return 0 if found else 2
+
+
+def draw_lines(axes, rows, label_of, **style):
+    lines = {}
+    for row in rows:
+        point = (float(row["particles"]), float(row["particle_steps_per_second"]) / 1e6)
+        lines.setdefault(label_of(row), []).append(point)
+    for label, points in lines.items():
+        # Measured twice, in two suites: the later one.
+        points = sorted(dict(points).items())
+        axes.plot([x for x, _ in points], [y for _, y in points], label=label, **style)
+        style = dict(style, color=COLORS[(COLORS.index(style["color"]) + 1) % len(COLORS)])
+
+
+def draw_panel(axes, case):
+    weir = [path for path in sorted(FOLDER.glob("*.csv")) if not re.match("prototype|targets", path.name)]
+    for k, path in enumerate(weir):
+        rows = [row for row in rows_of(path) if row["scene"] == case and row["backend"] == "gpu"]
+        draw_lines(axes, rows, lambda _: f"Weir, {path.stem}", color=COLORS[k], marker="o", markersize=3, linewidth=1.4)
+    for path in sorted(FOLDER.glob("prototype*.csv")):
+        rows = [row for row in rows_of(path) if row["scene"] == case]
+        draw_lines(axes, rows, lambda row: f"prototype {row['variant']}, {path.stem.split('-', 1)[1]}", color=COLORS[2],
+                   linestyle="--", linewidth=0.9)
+    targets = [row for row in rows_of(FOLDER / "targets.csv") if row["scene"] == case]
+    for key, marker in (("at_least", "_"), ("goal", "*")):
+        axes.plot([float(row["particles"]) for row in targets], [float(row[key]) for row in targets], marker,
+                  color="#222222", markersize=8, label=key.replace("_", " "))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("particles of fluid")
+    axes.set_title(CASES[case], fontsize=9, loc="left")
+
+
+def draw_chart():
+    figure, panels = plt.subplots(1, 2, figsize=(8.8, 3.8), layout="constrained")
+    for axes, case in zip(panels, CASES):
+        draw_panel(axes, case)
+    panels[0].set_ylabel("M particle-steps/s, whole step")
+    panels[0].legend(fontsize=6, loc="lower right")
+    (FOLDER / "speed.svg").write_text(svg_of(figure))
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--prototype", metavar="TEXT")
+    arguments = parser.parse_args()
+    return convert_prototype(arguments.prototype) if arguments.prototype else draw_chart()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
