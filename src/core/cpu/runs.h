@@ -50,90 +50,100 @@ static inline uint32_t weir_segments(int32_t low, int32_t high, uint32_t period,
     return count;
 }
 
-// Distance from [low, high] to the cell row that holds coordinates from row << shift, in quanta; edge rows reach to
-// infinity, since coordinates outside the grid are clamped into them.
-static inline double weir_row_distance(int32_t low, int32_t high, uint32_t row, uint32_t shift, uint32_t rows)
+// Square of the distance from [low, high] to the cell row that holds coordinates from row << shift, in quanta; edge rows
+// reach to infinity, since coordinates outside the grid are clamped into them.
+static inline int64_t weir_row_distance2(int64_t low, int64_t high, uint32_t row, uint32_t shift,
+                                         uint32_t rows)
 {
-    double begin = row == 0 ? -2e9 : (double)row * (double)(1u << shift);
-    double end = row + 1 == rows ? 4e9 : ((double)row + 1.0) * (double)(1u << shift);
-    double above = (double)low - end, below = begin - (double)high, distance = above > below ? above : below;
-    return distance > 0.0 ? distance : 0.0; // fmax() would be a call
+    int64_t begin = (int64_t)row << shift, end = begin + ((int64_t)1 << shift);
+    int64_t distance = 0;
+    if (row + 1 < rows && low > end) distance = low - end;
+    if (row > 0 && begin > high) distance = begin - high;
+    return distance * distance;
 }
 
-static inline void weir_add_runs(const WeirConstants *constants, const uint32_t *cell_start,
-                                 WeirLaneGroup *group, const WeirSegment *row_segment, uint32_t row,
-                                 const WeirSegment *layer_segment, uint32_t layer)
+// The runs of one row of cells; `chord2`: square of what is left of the support beyond the distance to the row.
+static inline void weir_add_runs(const WeirConstants *constants, const uint32_t *start, double chord2,
+                                 int32_t row_shift, int32_t layer_shift, WeirLaneGroup *group)
 {
-    const WeirBounds *bounds = &group->bounds;
-    double support = (double)(1u << constants->coordinate_bits);
-    double dy = weir_row_distance(bounds->low[1] - row_segment->shift, bounds->high[1] - row_segment->shift,
-                                  row, constants->row_shift, constants->cell_rows);
-    double dz =
-        weir_row_distance(bounds->low[2] - layer_segment->shift, bounds->high[2] - layer_segment->shift,
-                          layer, constants->row_shift, constants->cell_layers);
-    double chord2 = support * support - dy * dy - dz * dz;
-    if (chord2 <= 0.0) return;
     int32_t reach = (int32_t)sqrt(chord2) + 1;
     WeirSegment column[3];
-    uint32_t columns =
-        weir_segments(bounds->low[0] - reach, bounds->high[0] + reach, constants->period_x, column);
-    const uint32_t *start = cell_start + (layer * constants->cell_rows + row) * constants->cell_columns;
+    uint32_t columns = weir_segments(group->bounds.low[0] - reach, group->bounds.high[0] + reach,
+                                     constants->period_x, column);
     for (uint32_t n = 0; n < columns; ++n) {
         uint32_t first = weir_grid_cell(column[n].low, constants->column_shift, constants->cell_columns);
         uint32_t last = weir_grid_cell(column[n].high, constants->column_shift, constants->cell_columns);
-        WeirRun run = {
-            start[first], start[last + 1], {column[n].shift, row_segment->shift, layer_segment->shift}};
+        WeirRun run = {start[first], start[last + 1], {column[n].shift, row_shift, layer_shift}};
         if (run.begin < run.end && group->run_count < WEIR_MAX_RUNS) group->run[group->run_count++] = run;
     }
 }
 
-static inline void weir_find_runs(const WeirConstants *constants, const uint32_t *cell_start,
-                                  WeirLaneGroup *group)
+// The runs of the rows in one layer of cells; `left2`: square of what is left of the support beyond the distance to it.
+static inline void weir_add_layer(const WeirConstants *constants, const uint32_t *layer_start, int64_t left2,
+                                  int32_t layer_shift, WeirLaneGroup *group)
 {
-    const WeirBounds *bounds = &group->bounds;
     int32_t support = (int32_t)(1u << constants->coordinate_bits);
-    WeirSegment rows[3], layers[3] = {{0, 0, 0}};
-    uint32_t row_segments =
-        weir_segments(bounds->low[1] - support, bounds->high[1] + support, constants->period_y, rows);
-    uint32_t layer_segments = 1;
-    if (constants->dimension == 3) {
-        layer_segments =
-            weir_segments(bounds->low[2] - support, bounds->high[2] + support, constants->period_z, layers);
-    }
-    group->run_count = 0;
-    for (uint32_t a = 0; a < layer_segments; ++a) {
-        uint32_t last_layer = weir_grid_cell(layers[a].high, constants->row_shift, constants->cell_layers);
-        uint32_t layer = weir_grid_cell(layers[a].low, constants->row_shift, constants->cell_layers);
-        for (; layer <= last_layer; ++layer) {
-            for (uint32_t b = 0; b < row_segments; ++b) {
-                uint32_t last_row = weir_grid_cell(rows[b].high, constants->row_shift, constants->cell_rows);
-                uint32_t row = weir_grid_cell(rows[b].low, constants->row_shift, constants->cell_rows);
-                for (; row <= last_row; ++row)
-                    weir_add_runs(constants, cell_start, group, &rows[b], row, &layers[a], layer);
-            }
+    int32_t low = group->bounds.low[1], high = group->bounds.high[1];
+    WeirSegment segment[3];
+    uint32_t segments = weir_segments(low - support, high + support, constants->period_y, segment);
+    for (uint32_t n = 0; n < segments; ++n) {
+        int32_t shift = segment[n].shift;
+        uint32_t last = weir_grid_cell(segment[n].high, constants->row_shift, constants->cell_rows);
+        uint32_t row = weir_grid_cell(segment[n].low, constants->row_shift, constants->cell_rows);
+        for (; row <= last; ++row) {
+            int64_t chord2 = left2 - weir_row_distance2((int64_t)low - shift, (int64_t)high - shift, row,
+                                                        constants->row_shift, constants->cell_rows);
+            if (chord2 <= 0) continue;
+            weir_add_runs(constants, layer_start + row * constants->cell_columns, (double)chord2, shift,
+                          layer_shift, group);
         }
     }
 }
 
-// Takes particles from `begin` on, as long as they share a row and lie close enough that one set of runs serves
-// them all. The runs are found by weir_find_runs().
-static inline void weir_take_lanes(const WeirConstants *constants, const int32_t *const x[3], uint32_t begin,
-                                   uint32_t end, WeirLaneGroup *group)
+// Finds all runs of a group, which weir_take_lanes() made.
+static inline void weir_find_runs(const WeirConstants *constants, const uint32_t *cell_start,
+                                  WeirLaneGroup *group)
 {
-    uint32_t most = end - begin < WEIR_LANES ? end - begin : WEIR_LANES;
+    int32_t support = (int32_t)(1u << constants->coordinate_bits);
+    int64_t support2 = (int64_t)support * support;
+    int32_t low = group->bounds.low[2], high = group->bounds.high[2];
+    WeirSegment segment[3] = {{0, 0, 0}};
+    uint32_t segments = 1;
+    if (constants->dimension == 3)
+        segments = weir_segments(low - support, high + support, constants->period_z, segment);
+    group->run_count = 0;
+    for (uint32_t n = 0; n < segments; ++n) {
+        int32_t shift = segment[n].shift;
+        uint32_t last = weir_grid_cell(segment[n].high, constants->row_shift, constants->cell_layers);
+        uint32_t layer = weir_grid_cell(segment[n].low, constants->row_shift, constants->cell_layers);
+        for (; layer <= last; ++layer) {
+            int64_t left2 = support2 - weir_row_distance2((int64_t)low - shift, (int64_t)high - shift, layer,
+                                                          constants->row_shift, constants->cell_layers);
+            if (left2 > 0)
+                weir_add_layer(constants, cell_start + layer * constants->cell_rows * constants->cell_columns,
+                               left2, shift, group);
+        }
+    }
+}
+
+// Takes particles from `begin` on, as long as they share a row of cells and lie close enough that one set of runs serves
+// them all.
+static inline void weir_take_lanes(const WeirConstants *constants, const uint32_t *cell_start,
+                                   const int32_t *const x[3], uint32_t begin, uint32_t end,
+                                   WeirLaneGroup *group)
+{
     int32_t widest = (int32_t)(1u << constants->coordinate_bits) * 3;
-    WeirBounds *bounds = &group->bounds;
-    for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
     uint32_t row = weir_grid_cell(x[1][begin], constants->row_shift, constants->cell_rows);
     uint32_t layer = weir_grid_cell(x[2][begin], constants->row_shift, constants->cell_layers);
+    uint32_t row_end = cell_start[(layer * constants->cell_rows + row + 1) * constants->cell_columns];
+    uint32_t most = (end < row_end ? end : row_end) - begin;
+    if (most > WEIR_LANES) most = WEIR_LANES;
+    WeirBounds *bounds = &group->bounds;
+    for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
     for (group->lanes = 1; group->lanes < most; ++group->lanes) {
         uint32_t i = begin + group->lanes;
-        if (weir_grid_cell(x[1][i], constants->row_shift, constants->cell_rows) != row ||
-            weir_grid_cell(x[2][i], constants->row_shift, constants->cell_layers) != layer ||
-            x[0][i] - bounds->low[0] > widest) {
-            break;
-        }
-        for (int axis = 0; axis < 3; ++axis) {
+        if (x[0][i] - bounds->low[0] > widest) break;
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
             if (x[axis][i] < bounds->low[axis]) bounds->low[axis] = x[axis][i];
             if (x[axis][i] > bounds->high[axis]) bounds->high[axis] = x[axis][i];
         }

@@ -83,7 +83,7 @@ static void gather_particles(const WeirWcsph *solver, uint32_t begin, uint32_t e
 {
     const WeirWcsphParticles *to = &solver->sorted, *from = &solver->state;
     const uint32_t *slot = solver->cells.slot;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (uint32_t axis = 0; axis < solver->constants.dimension; ++axis) { // in 2D the third is 0
         gather(to->x[axis], from->x[axis], slot, begin, end);
         gather(to->velocity[axis], from->velocity[axis], slot, begin, end);
     }

@@ -554,7 +554,7 @@ INLINE void run_pass(Pass pass, const WeirWcsphData *data, uint32_t begin, uint3
     uint32_t kernel = data->parameters->kernel;
     for (uint32_t i = begin; i < end;) {
         WeirLaneGroup group;
-        weir_take_lanes(data->constants, data->x, i, end, &group);
+        weir_take_lanes(data->constants, data->cell_start, data->x, i, end, &group);
         if (takes_part(pass, data, i, group.lanes)) {
             weir_find_runs(data->constants, data->cell_start, &group);
             if (kernel != WEIR_KERNEL_WENDLAND) {

@@ -156,7 +156,7 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
     float c0 = constants->sound_speed, stiffness = 0.25f * mass * c0 * c0 / (spacing * spacing);
     float damping = 0.5f * mass * c0 / spacing;
     WeirLaneGroup group;
-    weir_take_lanes(constants, data->x, i, i + 1, &group);
+    weir_take_lanes(constants, data->cell_start, data->x, i, i + 1, &group);
     weir_find_runs(constants, data->cell_start, &group);
     memset(force, 0, 3 * sizeof *force);
     for (uint32_t n = 0; n < group.run_count; ++n) {
