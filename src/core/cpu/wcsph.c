@@ -150,8 +150,9 @@ static void scatter(WeirWcsph *solver)
 {
     point_to_sorted(solver);
     weir_cells_place(&solver->cells, solver->pool, solver->constants.particle_count);
-    weir_pool_run(solver->pool, solver->constants.cell_count + 1, WEIR_WCSPH_CELL_CHUNK, gather_chunk,
-                  solver);
+    uint32_t cells = solver->constants.cell_count + 1, chunk = cells / (4 * weir_pool_threads(solver->pool));
+    if (chunk < WEIR_WCSPH_CELL_CHUNK) chunk = WEIR_WCSPH_CELL_CHUNK; // long copies are the fast ones
+    weir_pool_run(solver->pool, cells, chunk, gather_chunk, solver);
     weir_wcsph_solid_velocities(solver, &solver->sorted, true, solver->sorted.velocity);
 }
 
@@ -163,6 +164,7 @@ static void forces_chunk(void *context, uint32_t begin, uint32_t end)
     solver->passes->forces(&solver->data, begin, end);
 }
 
+// In the chunks of `continuity`, which make the same groups of lanes.
 static void forces(WeirWcsph *solver)
 {
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, forces_chunk, solver);

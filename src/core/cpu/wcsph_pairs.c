@@ -254,26 +254,11 @@ typedef struct ForceSums {
     WeirLanes filling; // sum 1 / rho_j W^
 } ForceSums;
 
-// `v`: relative to the solid's own velocity.
-INLINE void add_barrier(const WeirWcsphData *data, Vector *sum, WeirLanes distance, Vector x, Vector v,
-                        Variant variant)
-{
-    const WeirConstants *constants = data->constants;
-    const WeirLanes zero = {0};
-    float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
-    float range = barrier_range * spacing, inverse_brake = 1.0f / (brake_range * spacing);
-    WeirLanes r = weir_lanes_max(distance, weir_lanes_fill(range / 3.0f));
-    WeirLanes push = weir_lanes_max(range / r - 1.0f, zero) * barrier_strength;
-    WeirLanes near = rest_to(1.0f, r * inverse_brake) * brake_strength;
-    WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
-    add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
-}
-
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
     float inverse_support, inverse_spacing, soft;
-    bool viscous, laminar, clustering; // terms that are not switched off
-    WeirLanes stick;
+    bool viscous, laminar, friction, clustering; // terms that are not switched off
+    WeirLanes stick, barrier_reach;
     Vector seen_velocity, velocity;
 } ForceLanes;
 
@@ -281,17 +266,38 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
 {
     const WeirConstants *constants = data->constants;
     float h = constants->smoothing_length * constants->inverse_quantum;
+    float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
     return (ForceLanes){
         .inverse_support = constants->inverse_support,
         .inverse_spacing = 1.0f / constants->spacing_value,
         .soft = 1e-4f * h * h,
         .viscous = constants->viscosity_factor != 0.0f,
         .laminar = constants->laminar_factor != 0.0f,
+        .friction = data->parameters->viscosity != 0.0f,
         .clustering = data->parameters->shifting != 0.0f,
+        .barrier_reach =
+            weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
         .stick = weir_lanes_load(data->stick + begin),
         .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
         .velocity = load(data->velocity, begin, variant),
     };
+}
+
+// Between fluid and solid; nothing beyond `barrier_reach`.
+INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x,
+                        WeirLanes distance, Variant variant, Vector *sum)
+{
+    const WeirConstants *constants = data->constants;
+    const WeirLanes zero = {0};
+    if (!weir_lanes_any_below(distance, own->barrier_reach)) return;
+    float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
+    float range = barrier_range * spacing, inverse_brake = 1.0f / (brake_range * spacing);
+    Vector v = less(own->velocity, data->velocity, j, variant); // the solid's own, not the mirrored one
+    WeirLanes r = weir_lanes_max(distance, weir_lanes_fill(range / 3.0f));
+    WeirLanes push = weir_lanes_max(range / r - 1.0f, zero) * barrier_strength;
+    WeirLanes near = rest_to(1.0f, r * inverse_brake) * brake_strength;
+    WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
+    add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
 // Adds candidate j at x = x_i - x_j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of
@@ -309,8 +315,8 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
             add_scaled(&sums->viscous, dot(v, x, variant) / (r2 + own->soft) * slope, x, variant);
         if (own->laminar) add_scaled(&sums->laminar, slope, v, variant);
     } else {
-        add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
-        add_barrier(data, &sums->barrier, r, x, less(own->velocity, data->velocity, j, variant), variant);
+        if (own->friction) add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
+        add_barrier(data, own, j, x, r, variant, &sums->barrier);
     }
     if (solids) return;
     WeirLanes shape = kernel_shape(s, variant);
