@@ -3,6 +3,7 @@
 
     tools/performance_chart.py                         write docs/performance/speed.svg
     tools/performance_chart.py --prototype TEXT        turn the lab prototype's table into CSV, to standard output
+    tools/performance_chart.py --table NAME            the tables of docs/performance.md from NAME.csv, to standard output
 
 Every file NAME.csv of `weir bench --csv` becomes a line per dimension (its cases box_2d and box_3d on the GPU);
 prototype-*.csv and targets.csv stand beside them. Needs Debian's python3-matplotlib.
@@ -86,10 +87,77 @@ def draw_chart():
     return 0
 
 
+# ---- Tables ----
+
+
+def near(rows, row, **keys):
+    """Those of `rows` with the scene and about the particles of `row`."""
+    count = float(row["particles"])
+    return [r for r in rows if r["scene"] == row["scene"] and abs(float(r["particles"]) - count) < 0.04 * count
+            and all(r[key] == value for key, value in keys.items())]
+
+
+def millions(rows, key="particle_steps_per_second", unit=1e6):
+    return f"{float(rows[0][key]) / unit:,.0f}" if rows else ""
+
+
+def print_targets(rows):
+    targets = rows_of(FOLDER / "targets.csv")
+    prototype = [row for path in sorted(FOLDER.glob("prototype*.csv")) for row in rows_of(path)]
+    print("| case | particles | n | at least | goal | prototype `X8.lb` / `X8.lb.r1.f3` | Weir | +-% | ms per step | G pairs/s | real-time factor | bytes per particle |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    for row in rows:
+        target = near(targets, row)
+        lists = [millions(near(prototype, row, variant=variant)) for variant in ("X8.lb", "X8.lb.r1.f3")]
+        print("|", " | ".join([
+            f"`{row['scene']}`", f"{int(row['particles']):,}", f"{float(row['mean_neighbors']):.1f}",
+            millions(target, "at_least", 1), millions(target, "goal", 1), " / ".join(lists) if lists[0] else "",
+            millions([row]), f"{50 * float(row['spread']):.1f}", f"{float(row['ms_per_step']):.3f}",
+            f"{float(row['pairs_per_second']) / 1e9:.0f}", f"{float(row['real_time_factor']):.2g}", f"{float(row['bytes_per_particle']):.0f}"]), "|")
+
+
+LANE_INSTRUCTIONS = 33e12  # per second, of an H100 or H200
+
+
+def print_passes(rows):
+    print("\n| case | pass | ms | share | lane-instructions per candidate | per pair |")
+    print("|---|---|---|---|---|---|")
+    for row in rows:
+        passes = [part.rsplit(" ", 1) for part in row["passes"].split("; ") if part]
+        whole = sum(float(ms) for _, ms in passes)
+        for name, ms in passes:
+            if float(ms) < 0.02 * whole:
+                continue
+            spent = LANE_INSTRUCTIONS * float(ms) / 1e3 / float(row["all_particles"])
+            pairs = name in ("forces", "continuity", "neighbors", "density")
+            each = [f"{spent / float(row[key]):.0f}" if pairs else "" for key in ("candidates", "mean_neighbors")]
+            print("|", " | ".join([f"`{row['scene']}`, {int(row['particles']):,}", f"`{name}`", ms,
+                                  f"{100 * float(ms) / whole:.0f} %", *each]), "|")
+
+
+def print_relative(rows):
+    print("\n| case | particles | n | candidates | M particle-steps/s | time per particle, of the reference's |")
+    print("|---|---|---|---|---|---|")
+    for row in rows:
+        print("|", " | ".join([f"`{row['scene']}`", f"{int(row['particles']):,}", f"{float(row['mean_neighbors']):.1f}",
+                              f"{float(row['candidates']):.0f}", millions([row]), row["relative"] or "1"]), "|")
+
+
+def print_tables(name):
+    rows = rows_of(FOLDER / f"{name}.csv")
+    print_targets(rows)
+    print_passes([row for row in rows if row["scene"] in CASES and 9e5 < float(row["particles"]) < 2e6])
+    print_relative(rows)
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--prototype", metavar="TEXT")
+    parser.add_argument("--table", metavar="NAME")
     arguments = parser.parse_args()
+    if arguments.table:
+        return print_tables(arguments.table)
     return convert_prototype(arguments.prototype) if arguments.prototype else draw_chart()
 
 
