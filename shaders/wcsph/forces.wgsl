@@ -31,8 +31,8 @@ struct Sums {
 const BARRIER_RANGE = 0.85; // spacings
 const BARRIER_STRENGTH = 4.0;
 const BRAKE_RANGE = 2.0;    // spacings
-const BRAKE_STRENGTH = 8.0;
-const BRAKE_LIMIT = 0.25;   // c0
+const BRAKE_STRENGTH = 6.0;
+const BRAKE_LIMIT = 0.1;    // c0
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
 const VOLUME_TIME = 300.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk

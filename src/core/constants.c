@@ -125,8 +125,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->lattice_filling = (float)lattice_filling(parameters, dimension);
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
-    constants->speed_limit =
-        2.0f * parameters->sound_speed; // spray may pass it for a moment, a sound flow not by far
+    constants->speed_limit = 4.0f * parameters->sound_speed; // docs/wcsph.md
     // The larger of laminar and artificial viscosity acts (docs/wcsph.md).
     double length = weir_smoothing_length(kernel, support) * parameters->sound_speed;
     double artificial = parameters->rest_density * parameters->artificial_viscosity * length;

@@ -19,7 +19,7 @@ WEIR_CONSTANT_NUMBER(viscosity_factor, "mueller: mass * viscosity * normalisatio
 WEIR_CONSTANT_NUMBER(inverse_cell_width, "1/m, cells along x")
 WEIR_CONSTANT_NUMBER(inverse_cell_height, "1/m, cells along y")
 WEIR_CONSTANT_NUMBER(search_radius, "support radius and a little more, so that rounding loses no neighbour")
-WEIR_CONSTANT_NUMBER(speed_limit, "m/s; a faster particle is a blow-up: half a support radius per step (mueller), twice c0 (wcsph)")
+WEIR_CONSTANT_NUMBER(speed_limit, "m/s; a faster particle is a blow-up: half a support radius per step (mueller), 4 c0 (wcsph)")
 WEIR_CONSTANT_NUMBER(quantum, "wcsph: m per quantum, support_radius / 2^coordinate_bits")
 WEIR_CONSTANT_NUMBER(inverse_quantum, "wcsph: quanta per m")
 WEIR_CONSTANT_NUMBER(inverse_support, "wcsph: 2^-coordinate_bits, support radii per quantum")

@@ -311,8 +311,7 @@ static WeirStatus blown_up(WeirSim *sim)
     return sim->status =
                weir_fail(&sim->error, WEIR_ERROR_UNSTABLE,
                          "step %llu: the fluid blew up: particle %u near (%g, %g, %g) is faster than "
-                         "twice the speed of sound, "
-                         "%.3g m/s, or not finite. %s",
+                         "four times the speed of sound, %.3g m/s, or not finite. %s",
                          (unsigned long long)(sim->steps_given + health->first_bad_step),
                          health->first_bad_id, place[0], place[1], place[2], sim->constants.speed_limit,
                          sim->parameters.stepping ? "Use stepping adaptive, or a smaller time_step"

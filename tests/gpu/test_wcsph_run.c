@@ -146,7 +146,7 @@ static bool all_finite(const float *values, size_t count)
 static void a_blow_up_is_found(void **state)
 {
     (void)state;
-    static const float bad[][2] = {{NAN, 0}, {INFINITY, 0}, {1000, NAN}, {1000, 1e30f}, {1000, 45}};
+    static const float bad[][2] = {{NAN, 0}, {INFINITY, 0}, {1000, NAN}, {1000, 1e30f}, {1000, 85}};
     for (size_t n = 0; n < sizeof bad / sizeof bad[0]; ++n) {
         WeirTestWorld test = weir_test_case("dam_2d");
         const double *place = test.world.particles.position + 2 * 57;
@@ -168,7 +168,7 @@ static void a_blow_up_is_found(void **state)
     }
 }
 
-// What is read after a blow-up is the state just before it: whole, finite, below twice the speed of sound.
+// What is read after a blow-up is the state just before it: whole, finite, below four times the speed of sound.
 static void the_last_good_state_is_kept(void **state)
 {
     (void)state;
@@ -193,7 +193,7 @@ static void the_last_good_state_is_kept(void **state)
         float fastest = 0;
         for (uint32_t i = 0; i < test.world.particles.fluid_slots; ++i)
             fastest = fmaxf(fastest, hypotf(last.velocity[2 * i], last.velocity[2 * i + 1]));
-        assert_true(fastest > 1 && fastest <= 40);
+        assert_true(fastest > 1 && fastest <= 80);
         assert_true(all_finite(last.solids[1].position, 4));
         // It stays, and a new state goes on.
         uint64_t hash = hash_of(solver, test.world.solid_count);

@@ -262,7 +262,7 @@ const WeirTestCase weir_test_cases[] = {
     {"quintic_3d", quintic_3d, 30}, {"laminar_2d", laminar_2d, 60},   {"slip_2d", slip_2d, 60},
     {"plain_2d", plain_2d, 60},     {"periodic_2d", periodic_2d, 60}, {"periodic_3d", periodic_3d, 40},
     {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
-    {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 50},         {"tap_2d", tap_2d, 100},
+    {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 40},         {"tap_2d", tap_2d, 100},
     {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},         {"long_2d", long_2d, 60},
     {"border_2d", border_2d, 60},   {"throw_2d", throw_2d, 15},       {"throw_3d", throw_3d, 15},
 };

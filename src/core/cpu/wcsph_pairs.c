@@ -230,8 +230,8 @@ INLINE uint32_t block_end(const WeirRun *run, uint32_t first)
 // ---- forces ----
 
 // A last barrier keeps fast fluid out of walls. Nearer than 0.85 spacings, where fluid at rest hardly comes, solid
-// particles repel it; nearer than two they brake what approaches faster than a quarter of the speed of sound, far
-// above what the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing.
+// particles repel it; nearer than two they brake what approaches faster than a tenth of the speed of sound, more
+// than the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
 // good, it would pull at whatever it meets.
 static const float spray_limit = 0.5f;
@@ -239,7 +239,7 @@ static const float spray_limit = 0.5f;
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 300.0f;
 static const float barrier_range = 0.85f, barrier_strength = 4.0f;
-static const float brake_range = 2.0f, brake_strength = 8.0f, brake_limit = 0.25f;
+static const float brake_range = 2.0f, brake_strength = 6.0f, brake_limit = 0.1f;
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
