@@ -2,7 +2,6 @@
 #include "core/cpu/pairs.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 // `arrays` arrays of `floats` each in one zeroed block; NULL if memory runs out.
 static float *make_block(size_t arrays, size_t floats)
@@ -76,15 +75,4 @@ WeirState weir_host_state(const WeirHostArrays *arrays, uint32_t count, uint64_t
         .pressure = arrays->pressure,
         .time = -1.0,
     };
-}
-
-double weir_seconds(void)
-{
-#if defined(__wasm__)
-    return 0.0;
-#else
-    struct timespec now;
-    timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-#endif
 }

@@ -39,6 +39,3 @@ static inline void weir_particle_copy(const WeirParticleArrays *to, uint32_t to_
     to->vy[to_index] = from->vy[from_index];
     to->id[to_index] = from->id[from_index];
 }
-
-// Wall clock in seconds; 0 where the target has none (WebAssembly: the page measures there).
-double weir_seconds(void);

@@ -11,6 +11,7 @@
 // nor compiler.
 #include "core/cpu/arrays.h"
 #include "core/cpu/cells.h"
+#include "core/cpu/cpu_solver.h"
 #include "core/cpu/pairs.h"
 #include "core/cpu/pool.h"
 #include "core/cpu/solvers.h"
@@ -18,7 +19,6 @@
 
 #include <math.h>
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -305,12 +305,6 @@ static WeirStatus poll(WeirSolver *base, WeirHealth *health)
     return WEIR_OK;
 }
 
-static WeirStatus wait_until_done(WeirSolver *base)
-{
-    (void)base; // step() returns when it is done
-    return WEIR_OK;
-}
-
 static void copy_by_id(void *context, uint32_t begin, uint32_t end)
 {
     MuellerCpu *solver = context;
@@ -344,11 +338,7 @@ static WeirStatus read_state(WeirSolver *base, WeirState *state)
 static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
 {
     const MuellerCpu *solver = (const MuellerCpu *)base;
-    if (weir_seconds() == 0.0) return 0; // no clock on this target
-    for (uint32_t n = 0; n < PASS_TOTAL && n < capacity; ++n) {
-        times[n] = (WeirPassTime){pass_names[n], 1000.0 * solver->pass_seconds[n]};
-    }
-    return PASS_TOTAL;
+    return weir_cpu_pass_times(pass_names, solver->pass_seconds, PASS_TOTAL, times, capacity);
 }
 
 static const WeirSolverInterface mueller_interface = {
@@ -357,7 +347,7 @@ static const WeirSolverInterface mueller_interface = {
     .set_state = set_state,
     .step = step,
     .poll = poll,
-    .wait = wait_until_done,
+    .wait = weir_cpu_wait,
     .read = read_state,
     .pass_times = pass_times,
 };
@@ -382,10 +372,8 @@ WeirSolver *weir_mueller_cpu_create(const WeirSolverSetup *setup, WeirStatus *st
         return NULL;
     }
     solver->base.interface = &mueller_interface;
-    solver->base.threads = weir_pool_threads(solver->pool);
     solver->pairs = weir_pair_passes();
-    snprintf(solver->base.device, sizeof solver->base.device, "CPU, %u thread%s, %s", solver->base.threads,
-             solver->base.threads == 1 ? "" : "s", solver->pairs->simd);
+    weir_cpu_describe(&solver->base, solver->pool, solver->pairs->simd);
     set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;
     return &solver->base;

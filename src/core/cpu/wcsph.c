@@ -7,12 +7,11 @@
 // Every sum has one order and every choice depends on values alone, so the bits depend on neither threads nor
 // compiler.
 #include "core/cpu/wcsph.h"
-#include "core/cpu/arrays.h"
+#include "core/cpu/cpu_solver.h"
 #include "core/cpu/solvers.h"
 #include "core/grid.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -324,12 +323,6 @@ static WeirStatus poll(WeirSolver *base, WeirHealth *health)
     return WEIR_OK;
 }
 
-static WeirStatus wait_until_done(WeirSolver *base)
-{
-    (void)base; // step() returns when it is done
-    return WEIR_OK;
-}
-
 static WeirStatus copied(WeirWcsph *solver, bool good)
 {
     if (good) return WEIR_OK;
@@ -357,10 +350,7 @@ static WeirStatus read_motion(WeirSolver *base, WeirState *state)
 static uint32_t pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
 {
     const WeirWcsph *solver = (const WeirWcsph *)base;
-    if (weir_seconds() == 0.0) return 0; // no clock on this target
-    for (uint32_t n = 0; n < WEIR_WCSPH_PASSES && n < capacity; ++n)
-        times[n] = (WeirPassTime){pass_names[n], 1000.0 * solver->pass_seconds[n]};
-    return WEIR_WCSPH_PASSES;
+    return weir_cpu_pass_times(pass_names, solver->pass_seconds, WEIR_WCSPH_PASSES, times, capacity);
 }
 
 static const WeirSolverInterface wcsph_interface = {
@@ -369,7 +359,7 @@ static const WeirSolverInterface wcsph_interface = {
     .set_state = set_state,
     .step = step,
     .poll = poll,
-    .wait = wait_until_done,
+    .wait = weir_cpu_wait,
     .read = read_state,
     .read_motion = read_motion,
     .pass_times = pass_times,
@@ -387,10 +377,8 @@ WeirSolver *weir_wcsph_cpu_create(const WeirSolverSetup *setup, WeirStatus *stat
         return NULL;
     }
     solver->base.interface = &wcsph_interface;
-    solver->base.threads = weir_pool_threads(solver->pool);
     solver->passes = weir_wcsph_passes();
-    snprintf(solver->base.device, sizeof solver->base.device, "CPU, %u thread%s, %s", solver->base.threads,
-             solver->base.threads == 1 ? "" : "s", solver->passes->simd);
+    weir_cpu_describe(&solver->base, solver->pool, solver->passes->simd);
     set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;
     return &solver->base;
