@@ -297,6 +297,37 @@ static void torn_fluid_does_not_pull(const WeirBackend *backend)
     weir_scene_destroy(scene);
 }
 
+static void uniform(const double place[3], float *density, float velocity[3])
+{
+    (void)place;
+    *density = 1000;
+    velocity[0] = 2;
+}
+
+// Each limit of the time step where it is the smallest: sound and speed, acceleration, viscosity.
+static void the_time_step_is_the_smallest_limit(const WeirBackend *backend)
+{
+    enum { SOUND, ACCELERATION, VISCOSITY, LIMITS };
+    for (int limit = 0; limit < LIMITS; ++limit) {
+        WeirScene *scene = block(2);
+        weir_test_choose(scene, "stepping", "adaptive");
+        weir_test_set(scene, "courant", 0.3);
+        if (limit == ACCELERATION) {
+            weir_test_gravity(scene, 600, 800);
+            weir_test_set(scene, "sound_speed", 2);
+        }
+        if (limit == VISCOSITY) weir_test_set(scene, "viscosity", 1e4);
+        WeirSim *sim = start(scene, backend, uniform);
+        weir_test_step(sim, 1);
+        double h = weir_sim_constants(sim)->smoothing_length;
+        const double expected[LIMITS] = {0.3 * h / (20 + 2), 0.3 * sqrt(h / 1000), 0.125 * h * h / 10};
+        double found = weir_sim_clock(sim).time_step;
+        CHECK_NEAR(found, expected[limit], 1e-5 * expected[limit]);
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 static void finest_shear(const double place[3], float *density, float velocity[3])
 {
     *density = 1000;
@@ -341,6 +372,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(diffusion_of_a_density_bulge),
     WEIR_SHARED_TEST(hydrostatic_density_does_not_diffuse),
     WEIR_SHARED_TEST(torn_fluid_does_not_pull),
+    WEIR_SHARED_TEST(the_time_step_is_the_smallest_limit),
     WEIR_SHARED_TEST(the_finest_shear_decays_within_a_step),
     WEIR_SHARED_TEST(momentum_is_kept_to_round_off),
 };
