@@ -73,6 +73,14 @@ WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char
     return WEIR_OK;
 }
 
+bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, const char *command)
+{
+    char message[512];
+    if (!weir_cli_backend_open(backend, name, message, sizeof message)) return true;
+    fprintf(stderr, "weir %s: --backend %s: %s\n", command, name, message);
+    return false;
+}
+
 void weir_cli_backend_close(WeirCliBackend *backend)
 {
     close_gpu(backend);

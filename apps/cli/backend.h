@@ -13,5 +13,7 @@ typedef struct WeirCliBackend {
 // slower than the C solver). On failure `message` says why.
 WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char *message,
                                  size_t message_size);
+// The same for --backend of `command`; false after a message on standard error.
+bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, const char *command);
 // Simulations must be gone before.
 void weir_cli_backend_close(WeirCliBackend *backend);

@@ -2,6 +2,7 @@
 #include "backend.h"
 #include "commands.h"
 #include "dump.h"
+#include "interrupt.h"
 #include "output.h"
 #include "probe_file.h"
 #include "progress.h"
@@ -9,7 +10,6 @@
 #include "setup.h"
 
 #include <math.h>
-#include <signal.h>
 #include <string.h>
 
 typedef struct RunOptions {
@@ -41,24 +41,6 @@ static const double batch_time = 0.05;  // wall s between two looks at the clock
 static const uint32_t largest_batch = 1u << 20;
 static const double keep_interval = 1.0; // wall s between two copies of the last good state
 
-// The one thing that a signal handler may touch.
-static volatile sig_atomic_t stop_requested;
-
-static void request_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_requested = 1;
-}
-
-// The first Ctrl-C asks for an end, the second one ends the program.
-static void catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = request_stop, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 // Fixed steps of `mueller` are counted beforehand; `wcsph` runs to a time, whatever steps that takes.
 static void plan_length(Run *run)
 {
@@ -76,23 +58,17 @@ static void plan_length(Run *run)
 
 static bool open_simulation(Run *run, int *exit_status)
 {
-    char message[512];
-    WeirStatus status = weir_cli_backend_open(&run->backend, run->options.backend, message, sizeof message);
-    if (status) {
-        fprintf(stderr, "weir run: --backend %s: %s\n", run->options.backend, message);
-        *exit_status = WEIR_EXIT_FAILED;
-        return false;
-    }
+    *exit_status = WEIR_EXIT_FAILED;
+    if (!weir_cli_backend_choose(&run->backend, run->options.backend, "run")) return false;
     WeirSimOptions options = {.backend = run->backend.backend,
                               .threads = (uint32_t)run->options.threads.value};
     run->sim = weir_sim_create(run->scene, &options);
-    if (run->sim) status = weir_sim_wait(run->sim);
-    if (run->sim && !status) return true;
+    WeirStatus status = run->sim ? weir_sim_wait(run->sim) : WEIR_ERROR_MEMORY;
+    if (!status) return true;
     fprintf(stderr, "weir run: %s: %s\n", run->scene_path,
             run->sim ? weir_sim_error(run->sim) : "memory ran out");
     // A scene that does not fit the memory is an input that cannot be run here.
-    bool memory = !run->sim || status == WEIR_ERROR_MEMORY;
-    *exit_status = memory ? WEIR_EXIT_INPUT : weir_cli_exit_status(status);
+    *exit_status = status == WEIR_ERROR_MEMORY ? WEIR_EXIT_INPUT : weir_cli_exit_status(status);
     return false;
 }
 
@@ -154,7 +130,7 @@ static void advance(Run *run)
     double batch = 1.0, start = weir_wall_time();
     weir_progress_begin(&progress, !run->options.quiet, run->steps, run->end_time);
     if (run->probes) run->status = weir_probes_update(run->probes, run->sim);
-    while (!run->status && !is_done(run) && !stop_requested) {
+    while (!run->status && !is_done(run) && !weir_cli_interrupted()) {
         double batch_start = weir_wall_time();
         keep_state(run);
         run->status = take_batch(run, batch);
@@ -268,7 +244,7 @@ static int run_command(int argument_count, char **arguments)
         fprintf(stderr, "weir run: --steps and --time are both given; must be one of them\n");
         return WEIR_EXIT_INPUT;
     }
-    catch_signals();
+    weir_cli_catch_interrupt();
     exit_status = simulate(&run);
     weir_probes_destroy(run.probes);
     weir_dump_free(&run.last_good);

@@ -1,11 +1,11 @@
 // weir validate: the published cases, each with its numbers beside the reference, and whether its gates hold.
 #include "backend.h"
 #include "commands.h"
+#include "interrupt.h"
 #include "output.h"
 #include "setup.h"
 #include "validate_output.h"
 
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -26,22 +26,6 @@ typedef struct Validate {
     WeirValidateReport report;
     bool failed; // some gate
 } Validate;
-
-static volatile sig_atomic_t stop_requested;
-
-static void request_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_requested = 1;
-}
-
-static void catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = request_stop, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
 
 static int list_cases(void)
 {
@@ -113,7 +97,7 @@ static void simulate(Validate *command, WeirValidation *v, uint32_t run, WeirVal
     WeirStatus status = sim ? weir_sim_wait(sim) : WEIR_ERROR_MEMORY;
     if (status) weir_validation_abandon(v, sim ? weir_sim_error(sim) : "memory ran out");
     if (!status) status = weir_validation_begin(v, run, sim);
-    while (!status && !weir_validation_run_is_done(v) && !stop_requested) {
+    while (!status && !weir_validation_run_is_done(v) && !weir_cli_interrupted()) {
         status = weir_validation_advance(v, sim);
         show_progress(command, v, sim, run);
     }
@@ -137,7 +121,7 @@ static bool validate_case(Validate *command, uint32_t index)
         return false;
     }
     double start = weir_wall_time();
-    for (uint32_t run = 0; run < weir_validation_run_count(v) && run < 64 && !stop_requested; ++run) {
+    for (uint32_t run = 0; run < weir_validation_run_count(v) && run < 64 && !weir_cli_interrupted(); ++run) {
         char before[sizeof told];
         snprintf(before, sizeof before, "%s", weir_validation_error(v));
         simulate(command, v, run, &runs[run]);
@@ -153,15 +137,6 @@ static bool validate_case(Validate *command, uint32_t index)
     return written;
 }
 
-static bool open_backend(Validate *command)
-{
-    char message[512];
-    if (!weir_cli_backend_open(&command->backend, command->options.backend, message, sizeof message))
-        return true;
-    fprintf(stderr, "weir validate: --backend %s: %s\n", command->options.backend, message);
-    return false;
-}
-
 static int validate_all(Validate *command)
 {
     const WeirTextList *wanted = &command->options.cases;
@@ -170,11 +145,11 @@ static int validate_all(Validate *command)
                              weir_resolution_name(command->resolution), command->options.backend))
         return WEIR_EXIT_FAILED;
     bool written = true;
-    for (size_t k = 0; k < count && written && !stop_requested; ++k) {
+    for (size_t k = 0; k < count && written && !weir_cli_interrupted(); ++k) {
         written = validate_case(command, wanted->count ? weir_case_find(wanted->items[k]) : (uint32_t)k);
     }
     written = weir_validate_end(&command->report, command->options.json) && written;
-    if (stop_requested) return WEIR_EXIT_INTERRUPTED;
+    if (weir_cli_interrupted()) return WEIR_EXIT_INTERRUPTED;
     return written && !command->failed ? WEIR_EXIT_DONE : WEIR_EXIT_FAILED;
 }
 
@@ -191,8 +166,9 @@ static int run_command(int argument_count, char **arguments)
     if (!known_cases(&command.options.cases)) return WEIR_EXIT_INPUT;
     while (strcmp(weir_resolution_name(command.resolution), command.options.resolution) != 0)
         ++command.resolution;
-    if (!open_backend(&command)) return WEIR_EXIT_FAILED;
-    catch_signals();
+    if (!weir_cli_backend_choose(&command.backend, command.options.backend, "validate"))
+        return WEIR_EXIT_FAILED;
+    weir_cli_catch_interrupt();
     exit_status = validate_all(&command);
     weir_cli_backend_close(&command.backend);
     return exit_status;
