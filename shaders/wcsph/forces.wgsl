@@ -34,7 +34,7 @@ const BRAKE_RANGE = 2.0;    // spacings
 const BRAKE_STRENGTH = 6.0;
 const BRAKE_LIMIT = 0.1;    // c0
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
-const VOLUME_TIME = 300.0; // h / c0
+const VOLUME_TIME = 1000.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk
 
 // 1 if friction acts on it.
@@ -304,8 +304,8 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
-    if full * sums.surface >= FULL_SUPPORT * f32(DIMENSION) {
-        let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
+    let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
+    if full * sums.surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling {
         shift.w += (filling - constants.lattice_filling) * constants.sound_speed
             / (VOLUME_TIME * constants.smoothing_length);
     }

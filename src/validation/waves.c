@@ -151,6 +151,8 @@ static const double gauges[GAUGES] = {2.0, 2.75, 3.5}; // m
 
 typedef struct Solitary {
     uint32_t surface[GAUGES]; // curves
+    double still
+        [GAUGES]; // m; gauges are set to zero in still water, which stands g h^2 / 2 c^2 below its lattice
 } Solitary;
 
 static void plan_solitary(WeirValidation *v)
@@ -171,10 +173,12 @@ static void plan_solitary(WeirValidation *v)
 
 static void sample_solitary(WeirValidation *v, const WeirSample *sample)
 {
-    const Solitary *solitary = v->data;
-    for (int k = 0; k < GAUGES; ++k)
-        weir_curve_push(v, solitary->surface[k], sample->time,
-                        weir_measure_height(sample, gauges[k], 0.0) - still_depth);
+    Solitary *solitary = v->data;
+    for (int k = 0; k < GAUGES; ++k) {
+        double height = weir_measure_height(sample, gauges[k], 0.0);
+        if (sample->time == 0.0) solitary->still[k] = height;
+        weir_curve_push(v, solitary->surface[k], sample->time, height - solitary->still[k]);
+    }
 }
 
 // Height and time of a gauge's crest, by the parabola through the samples within a tenth of its height.

@@ -34,6 +34,8 @@ static WeirScene *block_scene(uint32_t dimension, bool periodic)
     double height = periodic ? 1.0 : 0.5;
     CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, height, 0.4}, NULL),
                 WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_boolean(scene, "fluid[0].hydrostatic", false),
+                WEIR_OK); // a bare lattice
     return scene;
 }
 

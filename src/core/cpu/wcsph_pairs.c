@@ -237,7 +237,7 @@ INLINE uint32_t block_end(const WeirRun *run, uint32_t first)
 static const float spray_limit = 0.5f;
 // Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
 // volume_time h / c0.
-static const float full_support = 0.98f, volume_time = 300.0f;
+static const float full_support = 0.98f, volume_time = 1000.0f;
 static const float barrier_range = 0.85f, barrier_strength = 4.0f;
 static const float brake_range = 2.0f, brake_strength = 6.0f, brake_limit = 0.1f;
 
@@ -449,7 +449,8 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
     float c0 = constants->sound_speed, h = constants->smoothing_length, bulk = (float)constants->dimension;
     WeirLanes filling = constants->particle_mass * constants->kernel_factor * sums->filling;
     WeirLanes volume = (filling - constants->lattice_filling) * c0 / (volume_time * h);
-    rate = weir_lanes_select((WeirMask)(surface >= full_support * bulk), rate + volume, rate);
+    WeirLanes full = filling * (full_support * bulk / constants->lattice_filling);
+    rate = weir_lanes_select((WeirMask)(surface >= full), rate + volume, rate);
     WeirLanes lack = -weir_lanes_load(data->excess + begin);
     WeirMask spray = (WeirMask)(surface < spray_limit * bulk) & (WeirMask)(lack > zero);
     return weir_lanes_select(spray, lack * weir_lanes_load(data->inverse_density + begin) * c0 / h, rate);
