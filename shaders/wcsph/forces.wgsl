@@ -157,7 +157,7 @@ fn acceleration_of(sums: Sums, excess: f32, own_pressure: f32, inside: bool) -> 
         sum += select(0.0, constants.laminar_factor, inside) * sums.laminar;
     }
     if FRICTION {
-        sum += (2.0 * parameters.viscosity) * sums.friction;
+        sum += constants.friction_factor * sums.friction;
     }
     return scale * sum + pressure_scale(excess) * (sums.pressure + own_pressure * sums.gradient);
 }

@@ -95,20 +95,29 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
 }
 
-// Sum of V W over the sites of an endless resting lattice, its middle included: 1 but for the kernel's quadrature error.
-static double lattice_filling(const WeirParameters *parameters, uint32_t dimension)
+// Sums over the sites of an endless resting lattice: V W with the middle included, and V (-F) r^2 / d. Both are 1 but for the
+// kernel's quadrature error.
+typedef struct LatticeSums {
+    double filling, laplacian;
+} LatticeSums;
+
+static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension)
 {
-    double spacing = parameters->particle_spacing, support = parameters->support_radius, sum = 0.0;
+    double spacing = parameters->particle_spacing, support = parameters->support_radius;
+    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
     int reach = (int)fmin(ceil(support / spacing), 100.0), layers = dimension == 3 ? reach : 0;
+    LatticeSums sums = {0.0, 0.0};
     for (int k = -layers; k <= layers; ++k) {
         for (int j = -reach; j <= reach; ++j) {
             for (int i = -reach; i <= reach; ++i) {
                 double r = spacing * sqrt((double)(i * i + j * j + k * k));
-                sum += weir_smoothing_value(parameters->kernel, dimension, r, support);
+                sums.filling += volume * weir_smoothing_value(parameters->kernel, dimension, r, support);
+                sums.laplacian -= volume * r * r / dimension *
+                                  weir_smoothing_gradient(parameters->kernel, dimension, r, support);
             }
         }
     }
-    return sum * (dimension == 3 ? spacing * spacing * spacing : spacing * spacing);
+    return sums;
 }
 
 // Constants of the passes of `wcsph`.
@@ -122,7 +131,8 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);
     constants->gradient_factor = (float)weir_smoothing_gradient_factor(kernel, dimension, support);
     constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
-    constants->lattice_filling = (float)lattice_filling(parameters, dimension);
+    LatticeSums lattice = lattice_sums(parameters, dimension);
+    constants->lattice_filling = (float)lattice.filling;
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
     constants->speed_limit = 4.0f * parameters->sound_speed; // docs/wcsph.md
@@ -132,7 +142,9 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     double laminar = 2.0 * (dimension + 2.0) * parameters->viscosity;
     constants->viscosity_factor = (float)fmax(artificial, laminar);
     constants->artificial_factor = artificial > laminar ? (float)artificial : 0.0f;
-    constants->laminar_factor = artificial > laminar ? 0.0f : 2.0f * parameters->viscosity;
+    // On the lattice Morris' Laplacian of a quadratic field is exact.
+    constants->friction_factor = (float)(2.0 * parameters->viscosity / lattice.laplacian);
+    constants->laminar_factor = artificial > laminar ? 0.0f : constants->friction_factor;
     for (int axis = 0; axis < (int)dimension; ++axis) {
         for (int side = 0; side < 2; ++side)
             if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);

@@ -171,7 +171,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("DIFFUSION", parameters->density_diffusion > 0.0f);
     FLAG("SHIFTING", parameters->shifting > 0.0f);
     FLAG("LAMINAR", constants->laminar_factor > 0.0f);
-    FLAG("FRICTION", parameters->viscosity > 0.0f);
+    FLAG("FRICTION", constants->friction_factor > 0.0f);
     FLAG("VISCOUS", constants->viscosity_factor > 0.0f);
     FLAG("TENSION_CONTROL", parameters->tension_control == WEIR_TENSION_CONTROL_ON);
     FLAG("FIXED_STEP", parameters->stepping == WEIR_STEPPING_FIXED);

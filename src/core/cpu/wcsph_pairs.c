@@ -273,7 +273,7 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
         .soft = 1e-4f * h * h,
         .viscous = constants->viscosity_factor != 0.0f,
         .laminar = constants->laminar_factor != 0.0f,
-        .friction = data->parameters->viscosity != 0.0f,
+        .friction = constants->friction_factor != 0.0f,
         .clustering = data->parameters->shifting != 0.0f,
         .barrier_reach =
             weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
@@ -367,7 +367,7 @@ INLINE Vector acceleration_of(const WeirWcsphData *data, const ForceSums *sums, 
     WeirLanes common = constants->particle_mass * weir_lanes_load(data->inverse_density + begin) *
                        constants->gradient_factor;
     WeirLanes pressure = -common * constants->quantum;
-    WeirLanes friction = common * 2.0f * data->parameters->viscosity;
+    WeirLanes friction = common * constants->friction_factor;
     WeirLanes laminar = weir_lanes_select(inside, common * constants->laminar_factor, zero);
     WeirLanes viscous = common * weir_lanes_select(inside, weir_lanes_fill(constants->artificial_factor),
                                                    weir_lanes_fill(constants->viscosity_factor));
