@@ -249,3 +249,16 @@ fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState 
     }
     return state;
 }
+
+// How far a move from one state to the other takes any particle of solid n, in quanta, not less: a turn by q moves what is
+// r away by at most 2 |q - 1| r. What float32 rounds of places is in it.
+fn solid_way(n: u32, before: SolidState, after: SolidState) -> u32 {
+    if solid_table[n].kind == SOLID_FIXED {
+        return 0u;
+    }
+    let radius = solid_table[n].position.w;
+    let turn = min(length(after.orientation - before.orientation), length(after.orientation + before.orientation));
+    let way = length(after.position.xyz - before.position.xyz) + 2.0 * radius * turn
+        + 1e-6 * (length(after.position.xyz - constants.origin.xyz) + radius);
+    return u32(min(way * constants.inverse_quantum, 1e8)) + 4u;
+}

@@ -5,13 +5,19 @@ fn axis_cell(coordinate: i32, shift: u32, count: u32) -> u32 {
     return min(u32(max(coordinate, 0)) >> shift, count - 1u);
 }
 
-fn grid_cell(coordinate: vec4i) -> u32 {
+// Of a row or layer.
+fn row_cell(coordinate: i32, count: u32) -> u32 {
+    return min(u32(max(coordinate, 0)) / ROW_HEIGHT, count - 1u);
+}
+
+fn grid_cell(place: Place) -> u32 {
+    let coordinate = wide_place(place);
     let column = axis_cell(coordinate.x, constants.column_shift, constants.cell_columns);
-    let row = axis_cell(coordinate.y, constants.row_shift, constants.cell_rows);
+    let row = row_cell(coordinate.y, constants.cell_rows);
     if DIMENSION == 2u {
         return row * constants.cell_columns + column;
     }
-    let layer = axis_cell(coordinate.z, constants.row_shift, constants.cell_layers);
+    let layer = row_cell(coordinate.z, constants.cell_layers);
     return (layer * constants.cell_rows + row) * constants.cell_columns + column;
 }
 
@@ -24,26 +30,24 @@ struct Visits {
     count: u32,
 }
 
-fn visits_of(at: i32, count: u32, periodic: bool, period: u32) -> Visits {
-    let reach = i32(1u << constants.coordinate_bits);
+fn visits_of(at: i32, reach: i32, count: u32, periodic: bool, period: u32) -> Visits {
     let low = at - reach;
     let high = at + reach;
-    let shift = constants.row_shift;
-    let first = axis_cell(low, shift, count);
+    let first = row_cell(low, count);
     if !periodic {
-        let inside = axis_cell(high, shift, count) + 1u - first;
+        let inside = row_cell(high, count) + 1u - first;
         return Visits(0u, 0u, first, inside, inside);
     }
     let p = i32(period);
-    let last = axis_cell(p - 1, shift, count);
-    var visits = Visits(0u, 0u, first, axis_cell(min(high, p - 1), shift, count) + 1u - first, 0u);
+    let last = row_cell(p - 1, count);
+    var visits = Visits(0u, 0u, first, row_cell(min(high, p - 1), count) + 1u - first, 0u);
     if low < 0 {
-        visits.below_first = axis_cell(low + p, shift, count);
+        visits.below_first = row_cell(low + p, count);
         visits.below = last + 1u - visits.below_first;
     }
     visits.count = visits.below + visits.inside;
     if high >= p {
-        visits.count += axis_cell(high - p, shift, count) + 1u;
+        visits.count += row_cell(high - p, count) + 1u;
     }
     return visits;
 }
@@ -62,14 +66,16 @@ fn visit(visits: Visits, k: u32) -> vec2i {
 // Distance along one axis from `at` to a row of cells, in quanta. Rows at the edge reach to infinity, because
 // coordinates outside the grid are clamped into them.
 fn row_distance(at: i32, row: i32, count: u32) -> f32 {
-    let begin = row << constants.row_shift;
+    let begin = row * i32(ROW_HEIGHT);
     let below = select(begin - at, 0, row == 0);
-    let above = select(at - begin - i32((1u << constants.row_shift) - 1u), 0, row + 1 == i32(count));
+    let above = select(at - begin - i32(ROW_HEIGHT - 1u), 0, row + 1 == i32(count));
     return f32(max(max(below, above), 0));
 }
 
-// A walk over the runs around a particle:   var walk = walk_around(own);   while next_run(&walk) { ... }
+// A walk over the runs that hold all that was sorted within `reach` of a place:
+//   var walk = walk_around(place, reach);   while next_run(&walk) { ... }
 struct Walk {
+    reach: i32,
     rows: Visits,
     layers: Visits,
     row: u32,
@@ -79,18 +85,21 @@ struct Walk {
     place: Place,    // `own` as seen from the image that the run lies in
     first_cell: u32, // of the run; empty if it is end_cell
     end_cell: u32,
+    run_layer: u32,  // which of the layers it lies in
 }
 
 // Images along x: below, inside, above; only the inside if x is not periodic.
 const COLUMN_SEGMENTS = select(1u, 3u, PERIODIC_X);
 
-fn walk_around(own: vec4i) -> Walk {
+fn walk_around(place: Place, reach: i32) -> Walk {
     var walk: Walk;
-    walk.own = place_of(own);
-    walk.rows = visits_of(own.y, constants.cell_rows, PERIODIC_Y, constants.period_y);
+    let own = wide_place(place);
+    walk.own = place;
+    walk.reach = reach;
+    walk.rows = visits_of(own.y, reach, constants.cell_rows, PERIODIC_Y, constants.period_y);
     walk.layers = Visits(0u, 0u, 0u, 1u, 1u);
     if DIMENSION == 3u {
-        walk.layers = visits_of(own.z, constants.cell_layers, PERIODIC_Z, constants.period_z);
+        walk.layers = visits_of(own.z, reach, constants.cell_layers, PERIODIC_Z, constants.period_z);
     }
     return walk;
 }
@@ -116,13 +125,14 @@ fn next_run(walk: ptr<function, Walk>) -> bool {
     if (*walk).layer == (*walk).layers.count {
         return false;
     }
-    let support = f32(1u << constants.coordinate_bits);
+    (*walk).run_layer = (*walk).layer;
+    let reach = f32((*walk).reach);
     let row = visit((*walk).rows, (*walk).row);
     var first_row_cell = u32(row.x) * constants.cell_columns;
     (*walk).place = (*walk).own;
     (*walk).place.y -= row.y * i32(constants.period_y);
     let distance = row_distance((*walk).place.y, row.x, constants.cell_rows);
-    var chord_squared = support * support - distance * distance;
+    var chord_squared = reach * reach - distance * distance;
     if DIMENSION == 3u {
         let layer = visit((*walk).layers, (*walk).layer);
         first_row_cell += u32(layer.x) * constants.cell_rows * constants.cell_columns;

@@ -64,6 +64,22 @@ fn choose_step() {
     }
     control.running = select(0u, 1u, control.dt > 0.0 && control.bad_step == 0xffffffffu);
     control.drift_half = select(0.0, 0.5 * control.dt, control.running == 1u);
+    let chance = control.steps % SORT_INTERVAL == 0u && control.stale == 1u;
+    control.sorting = select(0u, 1u, control.running == 1u && (chance || any_layer_due()));
+}
+
+// Whether lists and cells are to be made anew at the next chance, because they might not last until the one after it,
+// and for which way they would be made.
+fn judge_order() {
+    let way = control.moved_finish + control.moved_drift;
+    control.travelled += way;
+    control.moved_finish = 0u;
+    control.moved_drift = 0u;
+    let fastest = control.max_speed * max(control.free_dt, control.last_dt) * constants.inverse_quantum;
+    let until_next = f32(SORT_INTERVAL) * (1.25 * max(fastest, f32(way)) + 4.0);
+    let moved = f32(control.travelled - control.sorted_at);
+    control.stale = select(0u, 1u, moved + until_next > f32(control.allowance));
+    control.next_allowance = u32(clamp(2.0 * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE));
 }
 
 // Whether the step under way moves anything.
@@ -90,6 +106,9 @@ fn advance_clock() {
     control.steps += 1u;
     control.steps_left -= 1u;
     control.error_bits = 0u;
+    control.last_side = control.side;
+    control.side = 1u - control.side;
     take_maxima();
+    judge_order();
     choose_step();
 }

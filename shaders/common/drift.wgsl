@@ -50,7 +50,7 @@ fn has_passed(at: Vector, group: u32) -> bool {
 }
 
 fn drifted(coordinate: vec4i, velocity: Vector, half: f32) -> Drifted {
-    let place = moved(place_of(coordinate), half * velocity);
+    let place = place_of(coordinate) + quanta_of(half * velocity);
     let at = position_of(place);
     var group = u32(coordinate.w);
     var fate = FATE_STAYS;

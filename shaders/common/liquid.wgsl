@@ -41,8 +41,29 @@ fn quanta_of(way: Vector) -> Place {
     return select(Place(0), Place(steps), abs(steps) < Vector(1e9));
 }
 
-fn moved(place: Place, way: Vector) -> Place {
-    return wrapped(place + quanta_of(way));
+// A difference of two places, to the nearest image.
+fn nearest(way: Place) -> Place {
+    var near = way;
+    if PERIODIC_X {
+        near.x = near_image(way.x, constants.period_x);
+    }
+    if PERIODIC_Y {
+        near.y = near_image(way.y, constants.period_y);
+    }
+    if PERIODIC_Z {
+        near = nearest_z(near);
+    }
+    return near;
+}
+
+fn near_image(way: i32, period: u32) -> i32 {
+    let p = i32(period);
+    return select(select(way, way - p, 2 * way > p), way + p, 2 * way < -p);
+}
+
+// Length of a way in whole quanta, not less; what is absurd is cut.
+fn way_length(way: Place) -> u32 {
+    return u32(min(ceil(length(Vector(way))), 1e8)) + 1u;
 }
 
 // Coordinate of a place that is `away` metres from the origin, not wrapped.
@@ -79,7 +100,7 @@ fn short_way(way: i32, period: u32) -> i32 {
     return select(select(rest, rest - p, 2 * rest > p), rest + p, 2 * rest < -p);
 }
 
-// m
+// m. Places are wrapped when they are sorted, and may lie a little outside until then.
 fn position_of(place: Place) -> Vector {
-    return vector_of(constants.origin) + Vector(place) * constants.quantum;
+    return vector_of(constants.origin) + Vector(wrapped(place)) * constants.quantum;
 }

@@ -32,3 +32,19 @@ fn wrap_z(to: Place) -> Place {
 fn short_way_z(way: Place) -> Place {
     return way;
 }
+
+fn nearest_z(way: Place) -> Place {
+    return way;
+}
+
+// neighbors.wgsl: an entry is j - i in 16 bits.
+const NO_ENTRY = 0xffffffffu;
+
+fn entry_of(i: u32, header: vec4u, layer: u32, j: u32) -> u32 {
+    let way = i32(j) - i32(i);
+    return select(NO_ENTRY, u32(way) & 0xffffu, way == ((way << 16u) >> 16u));
+}
+
+fn listed(i: u32, header: vec4u, entry: u32) -> u32 {
+    return u32(i32(i) + (i32(entry << 16u) >> 16u));
+}

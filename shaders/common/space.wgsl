@@ -34,3 +34,20 @@ fn wrap_z(to: Place) -> Place {
 fn short_way_z(way: Place) -> Place {
     return vec3i(way.xy, short_way(way.z, constants.period_z));
 }
+
+fn nearest_z(way: Place) -> Place {
+    return vec3i(way.xy, near_image(way.z, constants.period_z));
+}
+
+// neighbors.wgsl: an entry is the layer in two bits, and in 14 how far j lies behind the layer's first candidate.
+const NO_ENTRY = 0xffffffffu;
+
+fn entry_of(i: u32, header: vec4u, layer: u32, j: u32) -> u32 {
+    let first = select(select(header.w, header.z, layer == 1u), header.y, layer == 0u);
+    let way = j - first;
+    return select(NO_ENTRY, (layer << 14u) | way, layer < 3u && way < 16384u);
+}
+
+fn listed(i: u32, header: vec4u, entry: u32) -> u32 {
+    return select(select(header.z, header.y, entry < 16384u), header.w, entry >= 32768u) + (entry & 16383u);
+}

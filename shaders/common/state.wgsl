@@ -39,6 +39,19 @@ struct Control {
     lost: u32,
     emitted: u32,
     restored: u32,          // 1: after a blow-up the last good state was put back
+    // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
+    side: u32,              // of the working copies, that forces and walls read
+    last_side: u32,         // and that finish reads: the other one
+    sorting: u32,           // 1: the particles are sorted before the step under way
+    stale: u32,             // 1: and so they are at the next chance
+    travelled: u32,         // up to the last step's kick
+    moved_finish: u32,      // since, in the second half of its move,
+    moved_drift: u32,       // and in the first half of the next one's
+    sorted_at: u32,         // way when the particles were sorted
+    allowance: u32,         // way after which lists made then may miss neighbours
+    next_allowance: u32,
+    unused_x: u32,
+    unused_y: u32,
     due: array<vec4u, 16>,  // by emitter: when its next layer is due, xy, and when it stops, zw
 }
 
@@ -67,6 +80,18 @@ struct SharedControl {
     lost: atomic<u32>,
     emitted: u32,
     restored: u32,
+    side: u32,
+    last_side: u32,
+    sorting: u32,
+    stale: u32,
+    travelled: u32,
+    moved_finish: atomic<u32>,
+    moved_drift: atomic<u32>,
+    sorted_at: u32,
+    allowance: u32,
+    next_allowance: u32,
+    unused_x: u32,
+    unused_y: u32,
     due: array<vec4u, 16>,
 }
 
@@ -137,6 +162,16 @@ struct Flows {
 fn rotate(q: vec4f, v: vec3f) -> vec3f {
     let once = cross(q.xyz, v);
     return v + 2.0 * (q.w * once + cross(q.xyz, once));
+}
+
+// Of control: nothing may run over the last good state.
+fn is_well(bad_step: u32, restored: u32) -> bool {
+    return bad_step == 0xffffffffu || restored == 1u;
+}
+
+// Where in `coordinate` and `motion` a working copy of the particles begins; before both lies the state between calls.
+fn side_start(side: u32) -> u32 {
+    return (1u + side) * constants.particle_count;
 }
 
 // Tests the exponent's bits: WGSL compilers may assume that no value is infinite or NaN.

@@ -10,6 +10,9 @@ var<workgroup> total: atomic<u32>; // wgpu-native does not zero it
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scan_reduce(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
                @builtin(local_invocation_index) local: u32) {
+    if !is_sorting() {
+        return;
+    }
     let block = workgroup_index(workgroup, workgroups);
     if local == 0u {
         atomicStore(&total, 0u);

@@ -13,6 +13,9 @@ var<workgroup> thread_sum: array<u32, WORKGROUP_SIZE>;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
               @builtin(local_invocation_index) local: u32) {
+    if !is_sorting() {
+        return;
+    }
     // The last row of workgroups may reach beyond the blocks.
     let writes = workgroup_index(workgroup, workgroups) < SCAN_BLOCKS;
     let block = min(workgroup_index(workgroup, workgroups), SCAN_BLOCKS - 1u);

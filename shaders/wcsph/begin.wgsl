@@ -2,18 +2,30 @@
 //
 // in:  control, solid_state, motion_rows
 // out: control, solid_state
+var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn begin(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
         control.finishing = 0u;
+        atomicStore(&way_most, 0u);
         choose_step();
     }
     storageBarrier();
     workgroupBarrier();
     if MOVING_SOLIDS {
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
-            solid_state[NOW + n] = drifted_solid(n, solid_state[NOW + n], control.drift_half,
-                                            add_ticks(control.time, ticks_of(control.drift_half)));
+            let before = solid_state[NOW + n];
+            let after = drifted_solid(n, before, control.drift_half,
+                                      add_ticks(control.time, ticks_of(control.drift_half)));
+            solid_state[NOW + n] = after;
+            if control.drift_half > 0.0 {
+                atomicMax(&way_most, solid_way(n, before, after));
+            }
+        }
+        workgroupBarrier();
+        if local == 0u {
+            control.moved_drift = max(control.moved_drift, atomicLoad(&way_most));
         }
     }
 }

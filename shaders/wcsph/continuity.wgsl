@@ -1,57 +1,81 @@
 // drho/dt with the new velocities and with density diffusion between fluid particles, then the step's second half:
 // rho += dt/2 drho, x += dt/2 v + dt u; health; and the first half of the next step's move, if there is one.
 //
-// in:  sorted_coordinate, sorted_id, cell_start, kicked (its second half: shifting velocities, ways of moving solids)
-// out: coordinate, motion, id, maxima and counts in control; where no step follows, kicked keeps the rates in w of its
-//      second half
-@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
-@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
-@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
+// in:  coordinate, id, cell_start, neighbor_list, kicked (its second half: shifting velocities, ways of moving solids)
+// out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; maxima and
+//      counts in control; where no step follows, kicked keeps the rates in w of its second half
 @group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
 @group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
-@group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
+@group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
 // Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
 const LEAST_DENSITY = 0.8;
 
-// The workgroup's largest density error, as bits.
-var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero it
+// The workgroup's largest density error, as bits, and ways.
+var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero them
+var<workgroup> finish_most: atomic<u32>;
+var<workgroup> drift_most: atomic<u32>;
 
-// `shift_rate`: what shifting adds, drho/dt / rho.
-fn density_rate(own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
-    let support = f32(1u << constants.coordinate_bits);
+fn take_density(excess: f32) {
+    let error = bitcast<u32>(abs(excess) / parameters.rest_density);
+    if error > atomicLoad(&error_most) {
+        atomicMax(&error_most, error);
+    }
+}
+
+fn take_finish(way: u32) {
+    if way > atomicLoad(&finish_most) {
+        atomicMax(&finish_most, way);
+    }
+}
+
+fn take_drift(way: u32) {
+    if way > atomicLoad(&drift_most) {
+        atomicMax(&drift_most, way);
+    }
+}
+
+struct Own {
+    motion: vec4f,
+}
+
+struct Sums {
+    divergence: f32,
+    diffusion: f32,
+}
+
+fn state_of(start: u32, j: u32) -> vec4f {
+    return kicked[j];
+}
+
+// The kernel is 0 beyond the support.
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
     let c = constants.sound_speed;
     // Density by height, per quantum.
     let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
-    let velocity = vector_of(own_motion);
-    var divergence = 0.0;
-    var diffusion = 0.0;
-    var walk = walk_around(own);
-    while next_run(&walk) {
-        let end = cell_start[walk.end_cell];
-        for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = sorted_coordinate[j];
-            let offset = Vector(walk.place - place_of(other));
-            let r_squared = dot(offset, offset);
-            if BRANCH_FREE || r_squared < support * support {
-                let neighbor = kicked[j];
-                let slope = kernel_slope(sqrt(r_squared) * constants.inverse_support)
-                    / (parameters.rest_density + neighbor.w);
-                divergence += slope * dot(velocity - vector_of(neighbor), offset);
-                if DIFFUSION {
-                    // rho_j - rho_i less what the height between them makes
-                    let excess = neighbor.w - own_motion.w + dot(offset, hydrostatic);
-                    diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
-                }
-            }
-        }
+    let acts = !(CAN_EMPTY && u32(other.w) == GROUP_EMPTY);
+    let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
+    let slope = kernel_slope(sqrt(dot(offset, offset)) * constants.inverse_support) * inverse_density;
+    (*sums).divergence += slope * dot(vector_of(own.motion) - vector_of(neighbor), offset);
+    if DIFFUSION {
+        // rho_j - rho_i less what the height between them makes
+        let excess = neighbor.w - own.motion.w + dot(offset, hydrostatic);
+        (*sums).diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
     }
+}
+
+// Of the particle in slot i. `shift_rate`: what shifting adds, drho/dt / rho.
+fn density_rate(i: u32, own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
+    let c = constants.sound_speed;
+    let sums = sum_pairs(i, place_of(own), Own(own_motion), side_start(control.last_side),
+                         control.travelled - control.sorted_at, control.allowance);
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;
     let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * c;
-    return (parameters.rest_density + own_motion.w) * (compress * divergence + shift_rate) + diffuse * diffusion;
+    return (parameters.rest_density + own_motion.w) * (compress * sums.divergence + shift_rate)
+        + diffuse * sums.diffusion;
 }
 
 fn check_health(i: u32, speed_squared: f32, rate: f32) {
@@ -61,8 +85,8 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
     }
     atomicAdd(&control.bad_particles, 1u);
     atomicMin(&control.bad_step, control.steps);
-    atomicMin(&control.bad_id, sorted_id[i]);
-    // Count sees it: what the sort left, half a step ago, is the last good state, and nothing may run over it.
+    atomicMin(&control.bad_id, id[i]);
+    // The next passes see it: what this step began with, half a step ago, is the last good state, and nothing may run over it.
 }
 
 // The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
@@ -86,30 +110,27 @@ fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
 fn finish_fluid(i: u32, own: vec4i) {
     var own_motion = kicked[i];
     let shift = kicked[constants.particle_count + i];
-    let rate = density_rate(own, own_motion, shift.w);
+    let rate = density_rate(i, own, own_motion, shift.w);
     var velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w = max(own_motion.w + last_half * rate, (LEAST_DENSITY - 1.0) * parameters.rest_density);
-    let error = bitcast<u32>(abs(own_motion.w) / parameters.rest_density);
-    if error > atomicLoad(&error_most) {
-        atomicMax(&error_most, error);
-    }
+    take_density(own_motion.w);
     var way = last_half * velocity;
     if SHIFTING && u32(own.w) == GROUP_FLUID {
         way += control.last_dt * vector_of(shift);
     }
-    var place = moved(place_of(own), way);
+    var place = place_of(own) + quanta_of(way);
     if u32(own.w) == GROUP_FLUID {
         seal(&place, &velocity);
         own_motion = vec4f(wide(velocity), own_motion.w);
     }
+    take_finish(way_length(place - place_of(own)));
     let finished = vec4i(wide_place(place), own.w);
     let half = control.drift_half;
     if half == 0.0 {
         kicked[constants.particle_count + i].w = rate;
-        coordinate[i] = finished;
-        motion[i] = own_motion;
+        leave(i, finished, own_motion);
         return;
     }
     own_motion.w += half * rate;
@@ -119,14 +140,21 @@ fn finish_fluid(i: u32, own: vec4i) {
     } else if to.fate == FATE_LOST {
         atomicAdd(&control.lost, 1u);
     }
-    coordinate[i] = to.coordinate;
-    motion[i] = own_motion;
+    take_drift(way_length(place_of(to.coordinate) - place));
+    leave(i, to.coordinate, own_motion);
+}
+
+// Where the next step, or whoever comes after this one, finds it.
+fn leave(i: u32, at: vec4i, own_motion: vec4f) {
+    let sorts = control.sorting == 1u || control.drift_half == 0.0;
+    let target_slot = select(side_start(control.side), 0u, sorts) + i;
+    coordinate[target_slot] = at;
+    motion[target_slot] = own_motion;
 }
 
 fn finish(i: u32) {
-    let own = sorted_coordinate[i];
+    let own = coordinate[side_start(control.last_side) + i];
     let group = u32(own.w);
-    id[i] = sorted_id[i];
     if is_fluid(group) {
         finish_fluid(i, own);
         return;
@@ -134,14 +162,13 @@ fn finish(i: u32) {
     var place = own;
     if MOVING_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
         let way = Place(vector_of(kicked[constants.particle_count + i]));
-        place = vec4i(wide_place(wrapped(place_of(own) + way)), own.w);
+        place = vec4i(wide_place(place_of(own) + way), own.w);
     }
-    coordinate[i] = place;
     var own_motion = kicked[i];
     if HAS_SOLIDS && is_solid(group) {
         own_motion += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);
     }
-    motion[i] = own_motion;
+    leave(i, place, own_motion);
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -149,6 +176,8 @@ fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
               @builtin(local_invocation_index) local: u32) {
     if local == 0u {
         atomicStore(&error_most, 0u);
+        atomicStore(&finish_most, 0u);
+        atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
@@ -156,7 +185,9 @@ fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         finish(i);
     }
     workgroupBarrier();
-    if local == 0u && atomicLoad(&error_most) > 0u {
+    if local == 0u && atomicLoad(&finish_most) > 0u {
         atomicMax(&control.error_bits, atomicLoad(&error_most));
+        atomicMax(&control.moved_finish, atomicLoad(&finish_most));
+        atomicMax(&control.moved_drift, atomicLoad(&drift_most));
     }
 }

@@ -8,7 +8,6 @@
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<atomic<u32>>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<atomic<u32>>;
-@group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
 var<workgroup> empty_slots: atomic<u32>; // wgpu-native does not zero it
 var<workgroup> empty_before: atomic<u32>;
@@ -16,24 +15,25 @@ var<workgroup> empty_before: atomic<u32>;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
+    if !is_sorting() {
+        return;
+    }
     if local == 0u {
         atomicStore(&empty_slots, 0u);
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
-    let healthy = control.bad_step == 0xffffffffu || control.restored == 1u;
-    let counts = i < constants.particle_count && control.running == 1u && healthy;
     var is_empty = false;
     var own = 0u;
     var rank = 0u;
-    if counts {
+    if i < constants.particle_count {
         let at = coordinate[i];
         own = id[i];
         is_empty = u32(at.w) == GROUP_EMPTY;
         if is_empty {
             rank = atomicAdd(&empty_slots, 1u);
         } else {
-            let cell = grid_cell(at);
+            let cell = grid_cell(wrapped(place_of(at)));
             atomicAdd(&cell_count[cell], 1u);
             atomicStore(&cell_link[constants.cell_count + 1u + own], atomicExchange(&cell_link[cell], own + 1u));
         }

@@ -1,8 +1,8 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
-// The later steps' is done by continuity.
+// The later steps' is done by continuity. What is to be sorted stays in the state, the rest goes to a working copy.
 //
 // in:  coordinate, motion, id, kicked (rates of the last step in its second half), solid_state, local_place, control
-// out: coordinate, motion, counts in control
+// out: coordinate, motion, counts and largest way in control
 @group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
@@ -11,24 +11,38 @@
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
+var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, workgroups, local);
-    if i >= constants.particle_count || control.drift_half == 0.0 {
-        return;
+    if local == 0u {
+        atomicStore(&way_most, 0u);
     }
+    workgroupBarrier();
+    let i = thread_index(workgroup, workgroups, local);
+    if i < constants.particle_count && control.drift_half > 0.0 {
+        drift_particle(i, select(side_start(control.side), 0u, control.sorting == 1u) + i);
+    }
+    workgroupBarrier();
+    if local == 0u && atomicLoad(&way_most) > 0u {
+        atomicMax(&control.moved_drift, atomicLoad(&way_most));
+    }
+}
+
+fn drift_particle(i: u32, target_slot: u32) {
     let old = coordinate[i];
+    var own = motion[i];
+    var at = old;
     let group = u32(old.w);
     if is_fluid(group) {
         let half = control.drift_half;
-        var own = motion[i];
         if control.steps > 0u {
             own.w += half * kicked[constants.particle_count + i].w;
-            motion[i] = own;
         }
         let to = drifted(old, vector_of(own), half);
-        coordinate[i] = to.coordinate;
+        at = to.coordinate;
+        atomicMax(&way_most, way_length(place_of(at) - place_of(old)));
         if to.fate == FATE_DRAINED {
             atomicAdd(&control.drained, 1u);
         } else if to.fate == FATE_LOST {
@@ -37,6 +51,8 @@ fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     } else if MOVING_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
         let start = local_place[id[i] - constants.first_solid].xyz;
         let way = way_to(solid_state[NOW + group - GROUP_SOLID], start, place_of(old));
-        coordinate[i] = vec4i(wide_place(wrapped(place_of(old) + way)), old.w);
+        at = vec4i(wide_place(place_of(old) + way), old.w);
     }
+    coordinate[target_slot] = at;
+    motion[target_slot] = own;
 }

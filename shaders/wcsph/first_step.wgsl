@@ -7,4 +7,5 @@ fn first_step() {
     take_maxima();
     control.starting = 0u;
     control.running = 0u;
+    control.sorting = 0u;
 }

@@ -3,18 +3,15 @@
 //
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
-// in:  sorted_coordinate, sorted_motion, sorted_id, cell_start, solid_state, control
-// out: kicked: new velocity and density; from particle_count on: shifting velocity and rate; from 2 particle_count on, by id:
-//      two per solid particle, force of the fluid and of contact. cell_link's heads are emptied for the next count.
-// With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and nothing else changes.
-@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
-@group(0) @binding(BINDING_sorted_motion) var<storage, read> sorted_motion: array<vec4f>;
-@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
-@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
+// in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
+// out: kicked: new velocity and density; from particle_count on: shifting velocity and rate. Of particles of free bodies:
+//      force of contact and density; force of the fluid.
+// With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
+@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_motion) var<storage, read> motion: array<vec4f>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
-@group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
 struct Sums {
     pressure: Vector,   // of p_j, and what else acts along x, scaled to it
@@ -25,6 +22,7 @@ struct Sums {
     clustering: Vector, // of (W / W(spacing))^4
     surface: f32,
     filling: f32,       // of W
+    solid_gap: f32,     // the most by which fluid and a solid are closer than the brake's range, quanta
 }
 
 // A last barrier keeps fast fluid out of walls, and spray forgets tension: docs/wcsph.md.
@@ -43,6 +41,74 @@ fn sticks(group: u32) -> f32 {
         return f32(solid_table[group - GROUP_SOLID].no_slip);
     }
     return 1.0;
+}
+
+// The particle that neighbours act on.
+struct Own {
+    velocity: Vector,
+    solid: bool, // one of a solid, on which only fluid acts
+    stick: f32,
+}
+
+// Whether forces on solid particles are asked for.
+const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
+
+fn own_of(own: vec4i, own_motion: vec4f) -> Own {
+    return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)));
+}
+
+fn state_of(start: u32, j: u32) -> vec4f {
+    return motion[start + j];
+}
+
+// The kernel is 0 beyond the support.
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
+    let h = constants.smoothing_length * constants.inverse_quantum;
+    let group = u32(other.w);
+    let fluid = !HAS_SOLIDS || !is_solid(group);
+    let acts = !(ON_SOLIDS && !fluid && own.solid) && !(CAN_EMPTY && group == GROUP_EMPTY);
+    let r_squared = dot(offset, offset);
+    let s = sqrt(r_squared) * constants.inverse_support;
+    let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
+    let slope = kernel_slope(s) * inverse_density;
+    let both_fluid = select(0.0, slope, fluid && !own.solid);
+    var pressure = pressure_of(neighbor.w);
+    if TAIT && !fluid {
+        pressure = linear_pressure(neighbor.w);
+    }
+    let relative = own.velocity - vector_of(neighbor);
+    var along = slope * pressure;
+    if VISCOUS {
+        let approach = both_fluid * dot(relative, offset) / (r_squared + 1e-4 * h * h);
+        if LAMINAR {
+            (*sums).viscous += approach * offset;
+        } else {
+            along -= constants.viscosity_factor * constants.inverse_quantum * approach;
+        }
+    }
+    if LAMINAR {
+        (*sums).laminar += both_fluid * relative;
+    }
+    (*sums).gradient += slope * offset;
+    (*sums).pressure += along * offset;
+    if HAS_SOLIDS {
+        let mixed = acts && fluid == own.solid;
+        if FRICTION {
+            (*sums).friction += select(0.0, slope * own.stick * sticks(group), mixed) * relative;
+        }
+        let gap = quanta_of_spacings(BRAKE_RANGE) - sqrt(r_squared);
+        (*sums).solid_gap = max((*sums).solid_gap, select(0.0, gap, mixed));
+    }
+    let shape = kernel_shape(s);
+    (*sums).filling += select(shape * inverse_density, 0.0, itself);
+    if SHIFTING {
+        (*sums).clustering += (slope * power4(shape * (1.0 / constants.spacing_value))) * offset;
+    }
+    (*sums).surface += slope * r_squared;
+}
+
+fn quanta_of_spacings(count: f32) -> f32 {
+    return count * parameters.particle_spacing * constants.inverse_quantum;
 }
 
 // Own velocity of a particle of a solid, from where it is.
@@ -65,80 +131,50 @@ fn approach_velocity(own: vec4i, own_motion: vec4f, other: vec4i, other_motion: 
     return vector_of(own_motion) - vector_of(vec4f(solid_velocity(u32(other.w), place_of(other)), 0.0));
 }
 
-// `solid`: the particle is one of a solid, on which only fluid acts.
-fn sum_forces(own: vec4i, own_motion: vec4f, solid: bool) -> Sums {
-    let support = f32(1u << constants.coordinate_bits);
-    let h = constants.smoothing_length * constants.inverse_quantum;
-    let soft = 1e-4 * h * h;
-    let barrier_range = BARRIER_RANGE * parameters.particle_spacing * constants.inverse_quantum;
-    let brake_range = BRAKE_RANGE * parameters.particle_spacing * constants.inverse_quantum;
-    // What the sum of pressures is multiplied by at the end undoes itself for the barrier and for viscosity.
-    let barrier_scale = constants.sound_speed * constants.sound_speed / parameters.particle_spacing
-        / pressure_scale(own_motion.w);
-    let viscous_scale = constants.viscosity_factor / constants.quantum;
-    let inverse_spacing_value = 1.0 / constants.spacing_value;
-    let velocity = vector_of(own_motion);
-    let stick = sticks(u32(own.w));
-    var sums: Sums;
-    var walk = walk_around(own);
+// The barrier's acceleration.
+fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
+    let barrier_range = quanta_of_spacings(BARRIER_RANGE);
+    let brake_range = quanta_of_spacings(BRAKE_RANGE);
+    let solid = is_solid(u32(own.w));
+    let start = side_start(control.side);
+    var sum = Vector();
+    var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = sorted_coordinate[j];
+            let other = coordinate[start + j];
             let offset = Vector(walk.place - place_of(other));
-            let r_squared = dot(offset, offset);
-            let group = u32(other.w);
-            let fluid = !HAS_SOLIDS || !is_solid(group); // no empty slot is in a run
-            let acts = fluid || !solid;
-            // The kernel is 0 beyond the support: no branch is needed.
-            if BRANCH_FREE || (acts && r_squared < support * support) {
-                let neighbor = sorted_motion[j];
-                let s = sqrt(r_squared) * constants.inverse_support;
-                let inverse_density = 1.0 / (parameters.rest_density + neighbor.w);
-                let slope = select(0.0, kernel_slope(s) * inverse_density, acts);
-                var pressure = pressure_of(neighbor.w);
-                if TAIT && !fluid {
-                    pressure = linear_pressure(neighbor.w);
-                }
-                let relative = velocity - vector_of(neighbor);
-                if VISCOUS {
-                    let approach = select(0.0, dot(relative, offset) / (r_squared + soft), fluid && !solid);
-                    if LAMINAR {
-                        sums.viscous += (slope * approach) * offset;
-                    } else {
-                        pressure -= viscous_scale * approach;
-                    }
-                }
-                if LAMINAR {
-                    sums.laminar += select(0.0, slope, fluid && !solid) * relative;
-                }
-                var along = slope * pressure;
-                sums.gradient += slope * offset;
-                if HAS_SOLIDS && fluid == solid {
-                    if FRICTION {
-                        sums.friction += (slope * stick * sticks(group)) * relative;
-                    }
-                    let r = max(sqrt(r_squared), barrier_range / 3.0);
-                    let near = 1.0 - r / brake_range;
-                    if near > 0.0 {
-                        let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
-                        let approach = -dot(approach_velocity(own, own_motion, other, neighbor), offset)
-                            / (r * constants.sound_speed);
-                        let brake = BRAKE_STRENGTH * near * max(approach - BRAKE_LIMIT, 0.0);
-                        along += barrier_scale * (push + brake) / r;
-                    }
-                }
-                sums.pressure += along * offset;
-                let shape = kernel_shape(s);
-                sums.filling += shape * inverse_density;
-                if SHIFTING {
-                    sums.clustering += (slope * power4(shape * inverse_spacing_value)) * offset;
-                }
-                sums.surface += slope * r_squared;
+            let r = max(length(offset), barrier_range / 3.0);
+            let near = 1.0 - r / brake_range;
+            let mixed = u32(other.w) != GROUP_EMPTY && is_solid(u32(other.w)) != solid;
+            if mixed && near > 0.0 {
+                let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
+                let approach = -dot(approach_velocity(own, own_motion, other, motion[start + j]), offset)
+                    / (r * constants.sound_speed);
+                let brake = BRAKE_STRENGTH * near * max(approach - BRAKE_LIMIT, 0.0);
+                sum += ((push + brake) / r) * offset;
             }
         }
     }
-    return sums;
+    return (constants.sound_speed * constants.sound_speed / parameters.particle_spacing) * sum;
+}
+
+// Whether the barrier may act: few particles come so close to a solid, or approach it so fast, that they need that search.
+fn meets_barrier(sums: Sums, own_motion: vec4f) -> bool {
+    let fast = length(vector_of(own_motion)) + FASTEST_SURFACE > BRAKE_LIMIT * constants.sound_speed;
+    let close = sums.solid_gap > quanta_of_spacings(BRAKE_RANGE - BARRIER_RANGE);
+    return HAS_SOLIDS && (close || (sums.solid_gap > 0.0 && (MOVING_SOLIDS || fast)));
+}
+
+// Of the particle in slot i.
+fn sum_forces(i: u32, own: vec4i, own_motion: vec4f) -> Sums {
+    return sum_pairs(i, place_of(own), own_of(own, own_motion), side_start(control.side), way_since_sort(),
+                     control.allowance);
+}
+
+fn way_since_sort() -> u32 {
+    return control.travelled + atomicLoad(&control.moved_finish) + atomicLoad(&control.moved_drift)
+        - control.sorted_at;
 }
 
 // m/s^2 per unit of the sum of pressures.
@@ -205,11 +241,12 @@ fn contact_force(own: vec4i) -> Vector {
     let group = u32(own.w);
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
-    var walk = walk_around(own);
+    let start = side_start(control.side);
+    var walk = walk_around(place_of(own), i32(1u << constants.coordinate_bits) + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = sorted_coordinate[j];
+            let other = coordinate[start + j];
             let offset = Vector(walk.place - place_of(other)) * constants.quantum;
             let r_squared = dot(offset, offset);
             if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {
@@ -225,12 +262,14 @@ fn contact_force(own: vec4i) -> Vector {
 }
 
 fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f) -> Vector {
-    let sums = sum_forces(own, own_motion, true);
-    let acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w), false);
-    let entry = 2u * (constants.particle_count + sorted_id[i] - constants.first_solid);
-    kicked[entry] = vec4f(constants.particle_mass * wide(acceleration), 0.0);
+    let sums = sum_forces(i, own, own_motion);
+    var acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w), false);
+    if meets_barrier(sums, own_motion) {
+        acceleration += barrier_of(own, own_motion);
+    }
+    kicked[constants.particle_count + i] = vec4f(constants.particle_mass * wide(acceleration), 0.0);
     if FREE_SOLIDS && solid_table[u32(own.w) - GROUP_SOLID].kind == SOLID_FREE {
-        kicked[entry + 1u] = vec4f(wide(contact_force(own)), 0.0);
+        kicked[i] = vec4f(wide(contact_force(own)), own_motion.w);
     }
     return acceleration;
 }
@@ -280,14 +319,17 @@ fn publish_maxima() {
 }
 
 fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
-    let sums = sum_forces(own, own_motion, false);
+    let sums = sum_forces(i, own, own_motion);
     let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
     let inside = full * sums.surface >= 0.95 * f32(DIMENSION);
     let pressure = pressure_of(own_motion.w);
     let acts = select(pressure, -pressure, TENSION_CONTROL && inside && pressure < 0.0);
     let velocity = vector_of(own_motion);
-    let acceleration = acceleration_of(sums, own_motion.w, acts, inside)
+    var acceleration = acceleration_of(sums, own_motion.w, acts, inside)
         + body_forces(position_of(place_of(own)), velocity);
+    if meets_barrier(sums, own_motion) {
+        acceleration += barrier_of(own, own_motion);
+    }
     let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity
     if FORCES_READ {
         kicked[i] = vec4f(wide(acceleration), pressure);
@@ -304,7 +346,8 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
-    let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
+    let filling = constants.particle_mass * constants.kernel_factor
+        * (sums.filling + kernel_shape(0.0) / (parameters.rest_density + own_motion.w));
     if full * sums.surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling {
         shift.w += (filling - constants.lattice_filling) * constants.sound_speed
             / (VOLUME_TIME * constants.smoothing_length);
@@ -323,19 +366,13 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
           @builtin(local_invocation_index) local: u32) {
-    // Where count counted nothing, there is nothing to do.
-    if cell_start[constants.cell_count + 1u] == 0u {
-        return;
-    }
     if local == 0u {
         clear_maxima();
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
-    for (var cell = i; cell <= constants.cell_count; cell += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
-        cell_link[cell] = 0u;
-    }
-    if i < constants.particle_count {
+    let works = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
+    if i < constants.particle_count && works {
         forces_on(i);
     }
     workgroupBarrier();
@@ -345,8 +382,8 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
 }
 
 fn forces_on(i: u32) {
-    let own = sorted_coordinate[i];
-    let own_motion = sorted_motion[i];
+    let own = coordinate[side_start(control.side) + i];
+    let own_motion = motion[side_start(control.side) + i];
     let group = u32(own.w);
     if !HAS_SOLIDS || !is_solid(group) {
         if group == GROUP_EMPTY {

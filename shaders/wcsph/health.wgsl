@@ -1,9 +1,9 @@
 // After a blow-up: where the particle is that was found first. One workgroup, which otherwise has nothing to do.
 //
-// in:  sorted_coordinate, sorted_id, control
+// in:  coordinate, id, control
 // out: control.bad_place
-@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
-@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
+@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -12,8 +12,8 @@ fn health(@builtin(local_invocation_index) local: u32) {
         return;
     }
     for (var i = local; i < constants.particle_count; i += WORKGROUP_SIZE) {
-        if sorted_id[i] == control.bad_id {
-            control.bad_place = sorted_coordinate[i];
+        if id[i] == control.bad_id {
+            control.bad_place = coordinate[side_start(control.last_side) + i];
         }
     }
 }

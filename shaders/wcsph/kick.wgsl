@@ -1,10 +1,10 @@
 // The particles of moving solids: their velocity as continuity needs it, in the middle of the step with the solid's new
 // velocity, and their way to where the solid moves. Fluid is kicked by forces.
 //
-// in:  sorted_coordinate, sorted_id, solid_state, local_place, control
+// in:  coordinate, solid_slot, solid_state, local_place, control
 // out: kicked; its second half: the way, in quanta
-@group(0) @binding(BINDING_sorted_coordinate) var<storage, read> sorted_coordinate: array<vec4i>;
-@group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
+@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
 @group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
@@ -13,17 +13,18 @@
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn kick(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
         @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, workgroups, local);
-    if i >= constants.particle_count || control.finishing == 0u {
+    let particle = thread_index(workgroup, workgroups, local);
+    if particle >= constants.particle_count - constants.first_solid || control.finishing == 0u {
         return;
     }
-    let own = sorted_coordinate[i];
+    let i = solid_slot[particle];
+    let own = coordinate[side_start(control.last_side) + i];
     let group = u32(own.w);
-    if !is_solid(group) || solid_table[group - GROUP_SOLID].kind == SOLID_FIXED {
+    if solid_table[group - GROUP_SOLID].kind == SOLID_FIXED {
         return;
     }
     let n = group - GROUP_SOLID;
-    let start = local_place[sorted_id[i] - constants.first_solid].xyz;
+    let start = local_place[particle].xyz;
     let arm = rotate(solid_state[NEW + n].orientation, start);
     let velocity = solid_state[NEW + n].velocity.xyz + cross(solid_state[NEW + n].angular_velocity.xyz, arm);
     kicked[i] = vec4f(velocity, kicked[i].w);

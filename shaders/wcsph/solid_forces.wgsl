@@ -1,8 +1,9 @@
 // Forces and torques on solids, summed over one block of particles per workgroup, always in the same order.
 //
-// in:  kicked (forces by id), solid_state, local_place, blocks: solid, first id, last id + 1
+// in:  kicked (forces by slot), solid_slot, solid_state, local_place, blocks: solid, first id, last id + 1
 // out: solid_sum, four per block: force and torque of the fluid, of contact
 @group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
+@group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
@@ -20,9 +21,9 @@ fn solid_forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     for (var id = block.y + local; id < block.z; id += WORKGROUP_SIZE) {
         let particle = id - constants.first_solid;
         let arm = rotate(orientation, local_place[particle].xyz);
-        let entry = 2u * (constants.particle_count + particle);
-        let fluid = kicked[entry].xyz;
-        let contact = kicked[entry + 1u].xyz;
+        let slot = solid_slot[particle];
+        let fluid = kicked[constants.particle_count + slot].xyz;
+        let contact = kicked[slot].xyz;
         sums[0] += vec4f(fluid, 0.0);
         sums[1] += vec4f(cross(arm, fluid), 0.0);
         sums[2] += vec4f(contact, 0.0);

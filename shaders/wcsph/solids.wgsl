@@ -7,6 +7,8 @@
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
 
 var<workgroup> largest: atomic<u32>; // acceleration of free bodies, as bits
+var<workgroup> finish_most: atomic<u32>; // ways
+var<workgroup> drift_most: atomic<u32>;
 
 fn kicked_solid(n: u32) -> SolidState {
     var state = solid_state[NOW + n];
@@ -39,6 +41,8 @@ fn kicked_solid(n: u32) -> SolidState {
 fn solids(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
         atomicStore(&largest, 0u);
+        atomicStore(&finish_most, 0u);
+        atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
     if is_stepping() {
@@ -59,7 +63,17 @@ fn solids(@builtin(local_invocation_index) local: u32) {
         let next = add_ticks(control.time, ticks_of(control.drift_half));
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
             let finished = drifted_solid(n, solid_state[NEW + n], 0.5 * control.last_dt, control.time);
-            solid_state[NOW + n] = drifted_solid(n, finished, control.drift_half, next);
+            let drifted = drifted_solid(n, finished, control.drift_half, next);
+            solid_state[NOW + n] = drifted;
+            atomicMax(&finish_most, solid_way(n, solid_state[NEW + n], finished));
+            if control.drift_half > 0.0 {
+                atomicMax(&drift_most, solid_way(n, finished, drifted));
+            }
         }
+    }
+    workgroupBarrier();
+    if local == 0u && control.finishing == 1u {
+        control.moved_finish = atomicLoad(&finish_most);
+        control.moved_drift = atomicLoad(&drift_most);
     }
 }

@@ -9,6 +9,7 @@ SHADER(common_index)
 SHADER(common_grid)
 SHADER(common_kernels)
 SHADER(common_fluid)
+SHADER(solve_always)
 SHADER(solve_count)
 SHADER(solve_scan_reduce)
 SHADER(solve_scan_write)
@@ -66,8 +67,13 @@ static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
                                 WEIR_ITEMS_PARTICLES},
 };
 
-static const char *const parts[] = {weir_wgsl_common_uniforms, weir_wgsl_common_index, weir_wgsl_common_grid,
-                                    weir_wgsl_common_kernels,  weir_wgsl_common_fluid, NULL};
+static const char *const parts[] = {weir_wgsl_common_uniforms,
+                                    weir_wgsl_common_index,
+                                    weir_wgsl_common_grid,
+                                    weir_wgsl_common_kernels,
+                                    weir_wgsl_common_fluid,
+                                    weir_wgsl_solve_always,
+                                    NULL};
 
 const WeirMethodInfo weir_mueller_method = {
     .buffers = buffers,

@@ -30,7 +30,7 @@ void weir_mueller_copy_state(WeirGpuSolver *common)
     uint64_t offset = 0;
     for (size_t n = 0; n < sizeof names / sizeof *names; ++n) {
         uint64_t size = common->buffers.size[names[n]];
-        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[names[n]], offset, size);
+        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[names[n]], 0, offset, size);
         offset += size;
     }
     weir_gpu_submit(common->gpu, encoder, "read");

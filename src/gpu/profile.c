@@ -78,7 +78,7 @@ void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder)
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder)
 {
     wgpuCommandEncoderResolveQuerySet(encoder, profile->queries, 0, 2 * profile->count, profile->resolved, 0);
-    weir_readback_copy(profile->readback, encoder, profile->resolved, 0, RESOLVE_SIZE);
+    weir_readback_copy(profile->readback, encoder, profile->resolved, 0, 0, RESOLVE_SIZE);
 }
 
 void weir_profile_submitted(WeirProfile *profile)

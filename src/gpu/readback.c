@@ -32,10 +32,10 @@ void weir_readback_destroy(WeirReadback *readback)
     if (!pending) free(readback);
 }
 
-void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, WGPUBuffer from, uint64_t offset,
-                        uint64_t size)
+void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, WGPUBuffer from,
+                        uint64_t from_offset, uint64_t offset, uint64_t size)
 {
-    wgpuCommandEncoderCopyBufferToBuffer(encoder, from, 0, readback->buffer, offset, size);
+    wgpuCommandEncoderCopyBufferToBuffer(encoder, from, from_offset, readback->buffer, offset, size);
 }
 
 static void on_mapped(WGPUMapAsyncStatus status, WGPUStringView text, void *userdata1, void *userdata2)

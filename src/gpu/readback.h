@@ -16,9 +16,9 @@ typedef struct WeirReadback WeirReadback;
 WeirReadback *weir_readback_create(WeirGpu *gpu, const char *label, uint64_t size);
 // A copy under way in a browser: the readback frees itself when it arrived.
 void weir_readback_destroy(WeirReadback *readback); // NULL is allowed
-// Queues one piece of the copy; only while idle.
-void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, WGPUBuffer from, uint64_t offset,
-                        uint64_t size);
+// Queues one piece of the copy, from byte `from_offset` on; only while idle.
+void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, WGPUBuffer from,
+                        uint64_t from_offset, uint64_t offset, uint64_t size);
 // Starts to wait for the copy, after its commands were submitted.
 void weir_readback_start(WeirReadback *readback);
 WeirReadbackState weir_readback_state(const WeirReadback *readback);

@@ -142,7 +142,7 @@ static void poll_health(WeirGpuSolver *solver)
     bool idle = weir_readback_state(solver->health_copy) == WEIR_READBACK_IDLE;
     if (!idle || solver->health_known_work == solver->work) return;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(solver, "health");
-    weir_readback_copy(solver->health_copy, encoder, solver->buffers.handle[solver->health_buffer], 0,
+    weir_readback_copy(solver->health_copy, encoder, solver->buffers.handle[solver->health_buffer], 0, 0,
                        solver->health_size);
     weir_gpu_submit(solver->gpu, encoder, "health");
     weir_readback_start(solver->health_copy);

@@ -21,26 +21,33 @@ static void record_emission(const WeirWcsphGpu *solver, const WeirRecorder *reco
     weir_record(recorder, WEIR_WCSPH_EMIT);
 }
 
+// Does nothing where the device finds that order and lists still last.
 static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
 {
+    record_emission(solver, recorder);
     weir_record(recorder, WEIR_WCSPH_COUNT);
     weir_record(recorder, WEIR_WCSPH_SCAN_REDUCE);
     weir_record(recorder, WEIR_WCSPH_SCAN_WRITE);
     weir_record(recorder, WEIR_WCSPH_SCATTER);
-    if (solver->traits.solid_count > 0) weir_record(recorder, WEIR_WCSPH_WALLS);
+    weir_record(recorder, WEIR_WCSPH_NEIGHBORS);
 }
 
 // The first step's length and the first half of its move; later steps find theirs done by continuity.
-static void record_begin(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+static void record_begin(const WeirRecorder *recorder)
 {
     weir_record(recorder, WEIR_WCSPH_BEGIN);
     weir_record(recorder, WEIR_WCSPH_DRIFT);
-    record_emission(solver, recorder);
 }
 
-static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+static void record_walls(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
 {
-    record_sort(solver, recorder);
+    if (solver->traits.solid_count > 0) weir_record(recorder, WEIR_WCSPH_WALLS);
+}
+
+static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
+{
+    if (may_sort) record_sort(solver, recorder);
+    record_walls(solver, recorder);
     weir_record(recorder, WEIR_WCSPH_FORCES);
     if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
     if (solver->traits.moving_solids) {
@@ -50,14 +57,20 @@ static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder
         weir_record(recorder, WEIR_WCSPH_TIME_STEP);
     }
     weir_record(recorder, WEIR_WCSPH_CONTINUITY);
-    record_emission(solver, recorder);
 }
 
-void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder)
+void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how)
 {
     WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
+    if (how == WEIR_EVALUATE_RESTORED) weir_record(&recorder, WEIR_WCSPH_STORE);
     weir_record(&recorder, WEIR_WCSPH_BEGIN_READ);
-    record_sort(solver, &recorder);
+    if (how == WEIR_EVALUATE_NEW) {
+        record_sort(solver, &recorder);
+        weir_record(&recorder, WEIR_WCSPH_STORE);
+    } else {
+        weir_record(&recorder, WEIR_WCSPH_LOAD);
+    }
+    record_walls(solver, &recorder);
     weir_record(&recorder, WEIR_WCSPH_FORCES_READ);
     if (solver->traits.solid_count > 0) weir_record(&recorder, WEIR_WCSPH_SOLID_FORCES_READ);
     weir_recorder_end(&recorder);
@@ -81,17 +94,22 @@ static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool 
     WeirRecorder recorder;
     if (first) {
         recorder = weir_recorder_begin(common, encoder);
-        record_begin(solver, &recorder);
+        record_begin(&recorder);
         weir_recorder_end(&recorder);
     }
     if (measured) {
         recorder = weir_recorder_measure(common, encoder);
-        record_step(solver, &recorder);
+        record_step(solver, &recorder, true);
         weir_recorder_end(&recorder);
+        ++solver->counted;
         --steps;
     }
     recorder = weir_recorder_begin(common, encoder);
-    for (uint32_t n = 0; n < steps; ++n) record_step(solver, &recorder);
+    for (uint32_t n = 0; n < steps; ++n) {
+        bool may_sort = !solver->certain || solver->counted % solver->traits.sort_interval == 0;
+        record_step(solver, &recorder, may_sort);
+        ++solver->counted;
+    }
     if (last) weir_record(&recorder, WEIR_WCSPH_HEALTH);
     weir_recorder_end(&recorder);
     weir_gpu_submit(common->gpu, encoder, "step");
@@ -121,6 +139,7 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     weir_profile_poll(common->profile);
     bool measured = weir_profile_ready(common->profile);
     uint32_t most = steps_per_submit(common);
+    solver->certain = solver->certain && isinf(until); // the device may stop sooner
     for (uint32_t done = 0; done < steps && status == WEIR_OK;) {
         uint32_t batch = steps - done < most ? steps - done : most;
         submit_steps(solver, batch, done == 0, done + batch == steps, measured && done == 0);
@@ -158,13 +177,17 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     char settings[WEIR_SETTINGS_LENGTH];
     uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, &solver->traits, settings);
     status = weir_passes_prepare(&common->passes, settings, needed, common->report, &base->message);
-    if (status == WEIR_OK) weir_gpu_solver_configure(common, parameters, constants);
-    return status;
+    if (status != WEIR_OK) return status;
+    weir_gpu_solver_configure(common, parameters, constants);
+    WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, constants);
+    weir_buffers_write(&common->buffers, WEIR_WCSPH_constants, &cells, sizeof cells);
+    return WEIR_OK;
 }
 
 static void write_control(WeirWcsphGpu *solver)
 {
-    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_id = UINT32_MAX, .starting = 1};
+    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_id = UINT32_MAX, .starting = 1, .sorting = 1};
+    control.next_allowance = solver->traits.least_allowance;
     for (uint32_t n = 0; n < solver->traits.emitter_count; ++n) {
         const WeirEmitter *emitter = &solver->world.emitters[n];
         write_ticks(emitter->start, control.due[n]);
@@ -172,6 +195,8 @@ static void write_control(WeirWcsphGpu *solver)
     }
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
     solver->seen = control;
+    solver->counted = 0;
+    solver->certain = true;
 }
 
 static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
@@ -191,7 +216,7 @@ static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
     common->state_work = ++common->work;
     // Accelerations and speeds give the first step's length.
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
-    weir_gpu_wcsph_evaluate(solver, encoder);
+    weir_gpu_wcsph_evaluate(solver, encoder, WEIR_EVALUATE_NEW);
     WeirRecorder recorder = weir_recorder_begin(common, encoder);
     weir_record(&recorder, WEIR_WCSPH_FIRST_STEP);
     weir_recorder_end(&recorder);
@@ -226,13 +251,22 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     if (!weir_gpu_wcsph_copy_world(solver, setup) || !make_host(solver))
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %u particles",
                          setup->constants.particle_count);
+    const WGPULimits *limits = &common->gpu->limits;
+    uint64_t most = limits->maxStorageBufferBindingSize < limits->maxBufferSize
+                        ? limits->maxStorageBufferBindingSize
+                        : limits->maxBufferSize;
+    weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, most);
+    WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &setup->constants);
     uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL];
-    weir_gpu_wcsph_sizes(&setup->constants, &solver->world, &solver->traits, sizes);
+    weir_gpu_wcsph_sizes(&cells, &solver->world, &solver->traits, sizes);
     uint32_t scan_blocks = (uint32_t)(sizes[WEIR_WCSPH_block_sum] / 4);
     uint64_t copy_size = weir_gpu_wcsph_copy_size(sizes, setup->constants.particle_count);
     const WeirMethodInfo *method = weir_gpu_wcsph_method(setup->constants.dimension);
     WeirStatus status = weir_gpu_solver_make(common, method, sizes, scan_blocks, copy_size, message);
     if (status != WEIR_OK) return status;
+    uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
+    common->passes.groups[WEIR_ITEMS_SOLIDS] =
+        (solid_particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
     common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
     common->passes.groups[WEIR_ITEMS_FREE_BLOCKS] = solver->traits.free_block_count;
     status = configure(&common->base, &setup->parameters, &setup->constants);

@@ -1,12 +1,15 @@
 // The method `wcsph` on the GPU. One step, and who writes what (each arrow a pass of docs/wcsph.md):
 //
-//   coordinate motion id --count, scan--> cell_start --scatter--> sorted_* --walls--> sorted_motion of solids
-//        ^                                                            |
-//        |                                            forces (with kick), solid_forces, solids | time_step, kick
-//        |                                                            v
-//        +-- continuity (with finish and the next step's drift) -- kicked
+//   state --count, scan--> cell_start --scatter--> working copy --neighbors--> neighbor_list
+//     ^                                                  |
+//     |                              walls, forces (with kick), solid_forces, solids | time_step, kick
+//     |                                                  v
+//     +-- continuity (with finish and the next step's drift) -- kicked
 //
-// A batch of steps starts with begin and drift; its last step ends without the next one's drift.
+// `coordinate` and `motion` hold three copies of the particles: the state between calls, and two working copies, one
+// read and one written in turn by the steps of a batch. Particles keep their slots until the device finds that lists and
+// cells might not last (common/clock.wgsl, judge_order): then continuity leaves the particles in the state, from where
+// they are sorted. A batch starts with begin and drift; its last step ends in the state, without the next one's drift.
 #pragma once
 
 #include "gpu/solver.h"
@@ -22,8 +25,8 @@
     WEIR_BUFFER(cell_link)                                                                                   \
     WEIR_BUFFER(block_sum)                                                                                   \
     WEIR_BUFFER(cell_start)                                                                                  \
-    WEIR_BUFFER(sorted_coordinate)                                                                           \
-    WEIR_BUFFER(sorted_motion)                                                                               \
+    WEIR_BUFFER(neighbor_list)                                                                               \
+    WEIR_BUFFER(solid_slot)                                                                                  \
     WEIR_BUFFER(sorted_id)                                                                                   \
     WEIR_BUFFER(kicked)                                                                                      \
     WEIR_BUFFER(solid_state)                                                                                 \
@@ -55,6 +58,7 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_SCAN_REDUCE,
     WEIR_WCSPH_SCAN_WRITE,
     WEIR_WCSPH_SCATTER,
+    WEIR_WCSPH_NEIGHBORS,
     WEIR_WCSPH_WALLS,
     WEIR_WCSPH_FORCES,
     WEIR_WCSPH_SOLID_FORCES,
@@ -63,6 +67,8 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_KICK,
     WEIR_WCSPH_CONTINUITY,
     WEIR_WCSPH_BEGIN_READ,
+    WEIR_WCSPH_LOAD,
+    WEIR_WCSPH_STORE,
     WEIR_WCSPH_FORCES_READ, // forces for read() and at the start: accelerations, on all solids
     WEIR_WCSPH_SOLID_FORCES_READ,
     WEIR_WCSPH_FIRST_STEP,
@@ -74,7 +80,13 @@ typedef enum WeirWcsphGpuPass {
 typedef struct WeirWcsphTraits {
     uint32_t dimension, solid_count, emitter_count, drain_count;
     uint32_t block_count, free_block_count; // blocks of solid particles; those of free bodies come first
-    bool moving_solids, free_solids, slip_solids;
+    bool moving_solids, free_solids, slip_solids, can_empty;
+    float fastest_surface; // largest surface_velocity of a solid, m/s
+    // How neighbours are found (wcsph_neighbors.c).
+    uint32_t sort_interval; // steps; particles may be sorted before those whose number it divides
+    uint32_t list_chunks;   // of 8 neighbours, per particle; 0: no lists
+    uint32_t row_height;    // of cells, quanta
+    uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
 } WeirWcsphTraits;
 
 // Particles of one block of pass solid_forces.
@@ -93,9 +105,11 @@ typedef struct WeirWcsphControl {
     uint32_t starting;
     int32_t bad_place[4];
     uint32_t drained, lost, emitted, restored;
+    uint32_t side, last_side, sorting, stale;
+    uint32_t travelled, moved_finish, moved_drift, sorted_at, allowance, next_allowance, unused[2];
     uint32_t due[WEIR_WCSPH_MAX_FLOWS][4];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 112 + 16 * WEIR_WCSPH_MAX_FLOWS,
+static_assert(sizeof(WeirWcsphControl) == 160 + 16 * WEIR_WCSPH_MAX_FLOWS,
               "the layout of the shaders' struct");
 
 // `struct Flows`.
@@ -106,6 +120,13 @@ typedef struct WeirWcsphFlows {
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
 static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
+
+// wcsph_neighbors.c
+// How neighbours are found, from what else is known of the world; a list takes at most `most_bytes` in all.
+void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
+                         const WeirConstants *constants, uint64_t most_bytes);
+// The constants with the cells of this plan.
+WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirConstants *constants);
 
 // wcsph_passes.c
 // By dimension: 2, 3.
@@ -122,6 +143,8 @@ typedef struct WeirWcsphGpu {
     WeirWorld world; // without particles
     WeirWcsphTraits traits;
     uint32_t fluid_at_start; // particles
+    uint32_t counted;        // steps that the device will have taken, if they are certain: it may stop before
+    bool certain;            // as many as it was asked to
     uint64_t steps_before;   // steps that the device counted in 32 bits before it wrapped around
     bool blown_up;           // a copy said so, and host_solids are those before the bad step
     bool restored;           // then: the last good state is the state
@@ -142,8 +165,13 @@ void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver);
 bool weir_gpu_wcsph_write_state(WeirWcsphGpu *solver, const WeirParticles *particles);
 
 // wcsph.c
-// Queues count to forces on the current state.
-void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder);
+typedef enum WeirEvaluation {
+    WEIR_EVALUATE_NEW, // a state from the host, not sorted yet
+    WEIR_EVALUATE_STATE,
+    WEIR_EVALUATE_RESTORED // first the working copy before a blow-up becomes the state
+} WeirEvaluation;
+// Queues walls and forces on a state.
+void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how);
 
 // wcsph_read.c
 // Bytes of the copy of a state.

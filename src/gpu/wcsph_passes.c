@@ -16,6 +16,9 @@ SHADER(common_drift)
 SHADER(common_clock)
 SHADER(common_bodies)
 SHADER(common_emitters)
+SHADER(common_lists)
+SHADER(common_neighbors)
+SHADER(common_sorting)
 SHADER(solve_scan_reduce)
 SHADER(solve_scan_write)
 SHADER(wcsph_begin)
@@ -25,6 +28,9 @@ SHADER(wcsph_vacancies)
 SHADER(wcsph_emit)
 SHADER(wcsph_count)
 SHADER(wcsph_scatter)
+SHADER(wcsph_neighbors)
+SHADER(wcsph_load)
+SHADER(wcsph_store)
 SHADER(wcsph_walls)
 SHADER(wcsph_forces)
 SHADER(wcsph_solid_forces)
@@ -46,16 +52,21 @@ static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
 };
 
 #define BIT(name) (1u << WEIR_WCSPH_##name)
-enum { SORTED = BIT(sorted_coordinate) | BIT(sorted_motion) | BIT(sorted_id) };
-enum { STATE = BIT(coordinate) | BIT(motion) | BIT(id) };
-enum { FORCES_READS = SORTED | BIT(cell_start) | BIT(solid_state) };
-enum { FORCES_WRITES = BIT(kicked) | BIT(control) | BIT(cell_link) };
-enum { SUM_READS = BIT(kicked) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
+enum { PARTICLES = BIT(coordinate) | BIT(motion) };
+enum { SEARCH = BIT(cell_start) | BIT(neighbor_list) };
+enum { FORCES_READS = PARTICLES | SEARCH | BIT(solid_state) };
+enum { FORCES_WRITES = BIT(kicked) | BIT(control) };
+enum { SUM_READS = BIT(kicked) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
 
-static const char *const clock_part[] = {weir_wgsl_common_clock, NULL};
-static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_bodies, NULL};
-static const char *const emitters_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
+static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
+static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
+                                          weir_wgsl_common_bodies, NULL};
 static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
+static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
+static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists, NULL};
+static const char *const pairs_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors, NULL};
+static const char *const finish_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors,
+                                          weir_wgsl_common_drift, NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
 #define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name
@@ -67,43 +78,48 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_DRIFT] = {WCSPH(drift), NULL, drift_part,
                           BIT(id) | BIT(kicked) | BIT(solid_state) | BIT(local_place),
                           BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, emitters_part, BIT(coordinate) | BIT(id),
+    [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id),
                               BIT(vacancy) | BIT(control), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_EMIT] = {WCSPH(emit), NULL, emitters_part, BIT(nozzle),
+    [WEIR_WCSPH_EMIT] = {WCSPH(emit), NULL, clock_part, BIT(nozzle),
                          BIT(vacancy) | BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_COUNT] = {WCSPH(count), NULL, NULL, BIT(coordinate) | BIT(id) | BIT(control),
+    [WEIR_WCSPH_COUNT] = {WCSPH(count), NULL, sorting_part, BIT(coordinate) | BIT(id) | BIT(control),
                           BIT(cell_count) | BIT(cell_link), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_SCAN_REDUCE] = {SOLVE(scan_reduce), NULL, NULL, BIT(cell_count), BIT(block_sum),
-                                WEIR_ITEMS_CELL_BLOCKS},
-    [WEIR_WCSPH_SCAN_WRITE] = {SOLVE(scan_write), NULL, NULL, BIT(block_sum),
+    [WEIR_WCSPH_SCAN_REDUCE] = {SOLVE(scan_reduce), NULL, sorting_part, BIT(cell_count) | BIT(control),
+                                BIT(block_sum), WEIR_ITEMS_CELL_BLOCKS},
+    [WEIR_WCSPH_SCAN_WRITE] = {SOLVE(scan_write), NULL, sorting_part, BIT(block_sum) | BIT(control),
                                BIT(cell_count) | BIT(cell_start), WEIR_ITEMS_CELL_BLOCKS},
-    [WEIR_WCSPH_SCATTER] = {WCSPH(scatter), NULL, NULL, STATE | BIT(cell_link) | BIT(cell_start), SORTED,
-                            WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, NULL,
-                          BIT(sorted_coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(solid_state) |
-                              BIT(local_place),
-                          BIT(sorted_motion), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", NULL, FORCES_READS, FORCES_WRITES,
-                           WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_SCATTER] = {WCSPH(scatter), NULL, NULL, BIT(id) | BIT(cell_link) | BIT(cell_start),
+                            PARTICLES | BIT(sorted_id) | BIT(control), WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_NEIGHBORS] = {WCSPH(neighbors), NULL, lists_part,
+                              BIT(coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(control),
+                              BIT(neighbor_list) | BIT(solid_slot) | BIT(id) | BIT(cell_link),
+                              WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, pairs_part,
+                          BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
+                              BIT(control),
+                          BIT(motion), WEIR_ITEMS_SOLIDS},
+    [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", pairs_part, FORCES_READS,
+                           FORCES_WRITES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                  WEIR_ITEMS_FREE_BLOCKS},
     [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
                            BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_KICK] = {WCSPH(kick), NULL, NULL,
-                         BIT(sorted_coordinate) | BIT(sorted_id) | BIT(solid_state) | BIT(local_place) |
+                         BIT(coordinate) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                              BIT(control),
-                         BIT(kicked), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_CONTINUITY] = {WCSPH(continuity), NULL, drift_part,
-                               BIT(sorted_coordinate) | BIT(sorted_id) | BIT(cell_start),
-                               BIT(kicked) | STATE | BIT(control), WEIR_ITEMS_PARTICLES},
+                         BIT(kicked), WEIR_ITEMS_SOLIDS},
+    [WEIR_WCSPH_CONTINUITY] = {WCSPH(continuity), NULL, finish_part, BIT(id) | SEARCH,
+                               PARTICLES | BIT(kicked) | BIT(control), WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", NULL, FORCES_READS,
+    [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", pairs_part, FORCES_READS,
                                 FORCES_WRITES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                       WEIR_ITEMS_BLOCKS},
     [WEIR_WCSPH_FIRST_STEP] = {WCSPH(first_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(sorted_coordinate) | BIT(sorted_id), BIT(control),
+    [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(coordinate) | BIT(id), BIT(control),
                            WEIR_ITEMS_ONE},
 };
 
@@ -139,13 +155,14 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_constants] = sizeof(WeirConstants);
     sizes[WEIR_WCSPH_solid_table] = solids * sizeof(WeirSolid);
     sizes[WEIR_WCSPH_flows] = sizeof(WeirWcsphFlows);
-    sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_sorted_coordinate] = 16 * count;
-    sizes[WEIR_WCSPH_motion] = sizes[WEIR_WCSPH_sorted_motion] = 16 * count;
+    sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
+    sizes[WEIR_WCSPH_neighbor_list] = 16 * 128 * ((count + 127) / 128) * (traits->list_chunks + 1);
+    sizes[WEIR_WCSPH_solid_slot] = 4 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_id] = sizes[WEIR_WCSPH_sorted_id] = 4 * count;
     sizes[WEIR_WCSPH_cell_count] = sizes[WEIR_WCSPH_cell_start] = 4 * cells;
     sizes[WEIR_WCSPH_cell_link] = 4 * (cells + count);
     sizes[WEIR_WCSPH_block_sum] = 4 * (cells / WEIR_SCAN_BLOCK);
-    sizes[WEIR_WCSPH_kicked] = 32 * (count + solid_particles);
+    sizes[WEIR_WCSPH_kicked] = 32 * count;
     sizes[WEIR_WCSPH_solid_state] = 3 * solids * sizeof(WeirSolidState);
     sizes[WEIR_WCSPH_local_place] = 16 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_blocks] = 16 * at_least_one(traits->block_count);
@@ -182,6 +199,14 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("MOVING_SOLIDS", traits->moving_solids);
     FLAG("FREE_SOLIDS", traits->free_solids);
     FLAG("SLIP_SOLIDS", traits->slip_solids);
+    FLAG("CAN_EMPTY", traits->can_empty);
+    FLAG("LISTS", traits->list_chunks > 0);
+    NUMBER("LIST_CHUNKS", traits->list_chunks);
+    NUMBER("ROW_HEIGHT", traits->row_height);
+    NUMBER("SORT_INTERVAL", traits->sort_interval);
+    APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
+           traits->most_allowance);
+    APPEND("const FASTEST_SURFACE = %.9e;\n", (double)traits->fastest_surface);
     NUMBER("SOLID_COUNT", traits->solid_count > 0 ? traits->solid_count : 1);
     NUMBER("BLOCKS", traits->block_count > 0 ? traits->block_count : 1);
     NUMBER("FREE_BLOCKS", traits->free_block_count);
@@ -192,8 +217,8 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
 #undef APPEND
 #define PASS(name) (1u << WEIR_WCSPH_##name)
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
-                      PASS(SCATTER) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) | PASS(FORCES_READ) |
-                      PASS(FIRST_STEP) | PASS(HEALTH);
+                      PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) |
+                      PASS(FORCES_READ) | PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);

@@ -26,6 +26,10 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
     uint32_t steps = solver->seen.steps;
     memcpy(&solver->seen, copy, sizeof solver->seen);
     const WeirWcsphControl *seen = &solver->seen;
+    if (common->health_known_work == common->work) {
+        solver->counted = seen->steps;
+        solver->certain = true;
+    }
     if (seen->steps < steps) solver->steps_before += (uint64_t)UINT32_MAX + 1;
     const WeirConstants *constants = &common->constants;
     WeirHealth *health = &common->health;
@@ -48,19 +52,17 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
 
 // ---- State ----
 
-// The pieces of the copy, one after the other, in the sorted order; of kicked its first half: acceleration, pressure.
+// The pieces of the copy, one after the other, by slot: the first of the working copies; of kicked its first half:
+// acceleration, pressure.
 typedef struct Piece {
     WeirWcsphBuffer name;
     uint32_t per_particle; // bytes; 0: the whole buffer
+    uint32_t skip;         // that many times the particle count before it
 } Piece;
 static const Piece pieces[] = {
-    {WEIR_WCSPH_sorted_coordinate, 16},
-    {WEIR_WCSPH_sorted_motion, 16},
-    {WEIR_WCSPH_sorted_id, 4},
-    {WEIR_WCSPH_kicked, 16},
-    {WEIR_WCSPH_solid_state, 0},
-    {WEIR_WCSPH_solid_sum, 0},
-    {WEIR_WCSPH_control, 0},
+    {WEIR_WCSPH_coordinate, 16, 1}, {WEIR_WCSPH_motion, 16, 1},     {WEIR_WCSPH_id, 4, 0},
+    {WEIR_WCSPH_kicked, 16, 0},     {WEIR_WCSPH_solid_state, 0, 0}, {WEIR_WCSPH_solid_sum, 0, 0},
+    {WEIR_WCSPH_control, 0, 0},
 };
 enum { PIECES = sizeof pieces / sizeof pieces[0] };
 
@@ -76,20 +78,12 @@ uint64_t weir_gpu_wcsph_copy_size(const uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL],
     return total;
 }
 
-// After a blow-up: what the sort left in the middle of the bad step is the last good state, and the solids' state
-// before that step.
-static void restore(WeirWcsphGpu *solver, WGPUCommandEncoder encoder)
+// After a blow-up: the working copy that the bad step began with is the last good state, and the solids' state before
+// that step.
+static void restore(WeirWcsphGpu *solver)
 {
-    static const WeirWcsphBuffer pairs[][2] = {
-        {WEIR_WCSPH_sorted_coordinate, WEIR_WCSPH_coordinate},
-        {WEIR_WCSPH_sorted_motion, WEIR_WCSPH_motion},
-        {WEIR_WCSPH_sorted_id, WEIR_WCSPH_id},
-    };
     static const uint32_t one = 1;
     WeirBuffers *buffers = &solver->common.buffers;
-    for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n)
-        wgpuCommandEncoderCopyBufferToBuffer(encoder, buffers->handle[pairs[n][0]], 0,
-                                             buffers->handle[pairs[n][1]], 0, buffers->size[pairs[n][0]]);
     if (solver->traits.solid_count > 0)
         weir_buffers_write(buffers, WEIR_WCSPH_solid_state, solver->host_solids,
                            solver->traits.solid_count * sizeof *solver->host_solids);
@@ -103,12 +97,15 @@ void weir_gpu_wcsph_copy_state(WeirGpuSolver *common)
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     uint32_t count = common->constants.particle_count;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
-    if (solver->blown_up && !solver->restored) restore(solver, encoder);
-    weir_gpu_wcsph_evaluate(solver, encoder);
+    bool restores = solver->blown_up && !solver->restored;
+    if (restores) restore(solver);
+    weir_gpu_wcsph_evaluate(solver, encoder, restores ? WEIR_EVALUATE_RESTORED : WEIR_EVALUATE_STATE);
     uint64_t offset = 0;
     for (int n = 0; n < PIECES; ++n) {
         uint64_t size = piece_size(&pieces[n], common->buffers.size, count);
-        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[pieces[n].name], offset, size);
+        uint64_t from = (uint64_t)pieces[n].skip * pieces[n].per_particle * count;
+        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[pieces[n].name], from, offset,
+                           size);
         offset += size;
     }
     weir_gpu_submit(common->gpu, encoder, "read");
@@ -168,10 +165,18 @@ static void solid_velocity(const WeirWcsphGpu *solver, uint32_t group, uint32_t 
     for (int axis = 0; axis < 3; ++axis) velocity[axis] = v[axis] + solid->surface_velocity[axis];
 }
 
+// Places leave a periodic domain a little before they are sorted anew.
+static double wrapped(int32_t place, uint32_t period)
+{
+    if (period == 0) return place;
+    return place < 0 ? (double)place + period : place >= (int32_t)period ? (double)place - period : place;
+}
+
 static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
 {
     const WeirConstants *constants = &solver->common.constants;
     uint32_t count = constants->particle_count, dimension = constants->dimension;
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float *position = solver->host, *velocity = position + (size_t)dimension * count;
     float *acceleration = velocity + (size_t)dimension * count;
     float *density = acceleration + (size_t)dimension * count, *pressure = density + count;
@@ -185,8 +190,8 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
             solid_velocity(solver, group, id, own);
         for (uint32_t axis = 0; axis < dimension; ++axis) {
             size_t k = (size_t)dimension * id + axis;
-            position[k] = (float)((double)constants->origin[axis] +
-                                  (double)view->coordinate[4 * i + axis] * (double)constants->quantum);
+            double place = wrapped(view->coordinate[4 * i + axis], periods[axis]);
+            position[k] = (float)((double)constants->origin[axis] + place * (double)constants->quantum);
             velocity[k] = empty ? 0.0f : own[axis];
             acceleration[k] = empty ? 0.0f : view->kicked[4 * i + axis];
         }

@@ -29,7 +29,11 @@ static void note_traits(WeirWcsphGpu *solver)
         traits->moving_solids = traits->moving_solids || solid->kind != WEIR_SOLID_FIXED;
         traits->free_solids = traits->free_solids || solid->kind == WEIR_SOLID_FREE;
         traits->slip_solids = traits->slip_solids || !solid->no_slip;
+        const float *v = solid->surface_velocity;
+        float speed = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        traits->fastest_surface = fmaxf(traits->fastest_surface, speed);
     }
+    traits->can_empty = world->drain_count > 0 || solver->common.constants.open_sides != 0;
 }
 
 // Blocks of solid n behind those that there are.
@@ -132,8 +136,6 @@ void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver)
         weir_buffers_write(buffers, WEIR_WCSPH_motion_rows, world->motion,
                            world->motion_count * sizeof *world->motion);
     if (world->solid_count == 0) return;
-    weir_buffers_write(buffers, WEIR_WCSPH_solid_table, world->solids,
-                       world->solid_count * sizeof *world->solids);
     weir_buffers_write(buffers, WEIR_WCSPH_blocks, solver->blocks,
                        solver->traits.block_count * sizeof *solver->blocks);
 }
@@ -204,6 +206,32 @@ static void place_solids(const WeirWcsphGpu *solver, const WeirSolidState *state
     }
 }
 
+// How far from its reference point a solid's particles are, m.
+static float radius_of(const WeirWcsphGpu *solver, const WeirSolid *solid)
+{
+    float most = 0.0f;
+    for (uint32_t id = solid->first; id < solid->first + solid->count; ++id) {
+        const float *arm = solver->local_place + 4 * (size_t)(id - solver->common.constants.first_solid);
+        most = fmaxf(most, arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
+    }
+    return sqrtf(most);
+}
+
+// The device's table has each solid's radius in position[3].
+static bool write_solid_table(WeirWcsphGpu *solver)
+{
+    uint32_t count = solver->world.solid_count;
+    WeirSolid *table = malloc(count * sizeof *table);
+    if (!table) return false;
+    for (uint32_t n = 0; n < count; ++n) {
+        table[n] = solver->world.solids[n];
+        table[n].position[3] = radius_of(solver, &table[n]);
+    }
+    weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_solid_table, table, count * sizeof *table);
+    free(table);
+    return true;
+}
+
 static bool start_solids(WeirWcsphGpu *solver, const State *state)
 {
     uint32_t count = solver->world.solid_count;
@@ -217,7 +245,7 @@ static bool start_solids(WeirWcsphGpu *solver, const State *state)
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_solid_state, states,
                        3 * (size_t)count * sizeof *states);
     free(states);
-    return true;
+    return write_solid_table(solver);
 }
 
 bool weir_gpu_wcsph_write_state(WeirWcsphGpu *solver, const WeirParticles *particles)

@@ -91,6 +91,16 @@ static const Field fields[] = {
     CONTROL(lost, COUNT),
     CONTROL(emitted, COUNT),
     CONTROL(restored, COUNT),
+    CONTROL(side, COUNT),
+    CONTROL(last_side, COUNT),
+    CONTROL(sorting, COUNT),
+    CONTROL(stale, COUNT),
+    CONTROL(travelled, COUNT),
+    CONTROL(moved_finish, COUNT),
+    CONTROL(moved_drift, COUNT),
+    CONTROL(sorted_at, COUNT),
+    CONTROL(allowance, COUNT),
+    CONTROL(next_allowance, COUNT),
     CONTROL(due[5], VECTOR),
 };
 enum { FIELDS = sizeof fields / sizeof fields[0], SOLIDS = 3 };
@@ -212,7 +222,7 @@ static WeirReadback *run_echo(const Echo *echo)
     wgpuComputePassEncoderEnd(pass);
     wgpuComputePassEncoderRelease(pass);
     WeirReadback *readback = weir_readback_create(echo->gpu, "echo readback", sources[ECHO].size);
-    weir_readback_copy(readback, encoder, echo->buffer[ECHO], 0, sources[ECHO].size);
+    weir_readback_copy(readback, encoder, echo->buffer[ECHO], 0, 0, sources[ECHO].size);
     weir_gpu_submit(echo->gpu, encoder, "echo");
     weir_readback_start(readback);
     while (weir_readback_state(readback) != WEIR_READBACK_READY)

@@ -234,7 +234,7 @@ static void tap_2d(WeirTestWorld *test)
 static void tap_3d(WeirTestWorld *test)
 {
     *test = start(3, 0.5, 0.6, 0.4);
-    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.5, 0.15, 0.4}, 0.1, 0.3);
+    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.5, 0.15, 0.4}, 0.11, 0.3);
     weir_test_world_slots(test, 300);
     weir_test_world_sides(test);
     add_tap(test, 0.25, 0.4);

@@ -1,0 +1,64 @@
+// How `wcsph` on the GPU finds neighbours: lists with a skin or walks over cells, and how often particles are sorted.
+#include "gpu/wcsph.h"
+
+#include <math.h>
+
+// Shares of the support radius. A list reaches two allowances beyond the support.
+static const double least_allowance = 0.03, most_allowance = 0.08;
+// Neighbours that a list has room for, in those of the lattice: fluid may be squeezed, and disordered.
+static const double list_margin = 1.25;
+// Sorting costs five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
+static const double pairs_for_every_step = 2e7;
+
+static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
+{
+    double ratio = reach * parameters->support_radius / parameters->particle_spacing;
+    return dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.1416 * ratio * ratio;
+}
+
+// Whether a periodic axis is so short that a list could hold a particle twice.
+static bool is_short(const WeirConstants *constants, double reach)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    double support = (double)(1u << constants->coordinate_bits);
+    for (int axis = 0; axis < 3; ++axis)
+        if (periods[axis] > 0 && (double)periods[axis] < 2.0 * (reach + 0.1) * support) return true;
+    return false;
+}
+
+void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
+                         const WeirConstants *constants, uint64_t most_bytes)
+{
+    double support = (double)(1u << constants->coordinate_bits), reach = 1.0 + 2.0 * most_allowance;
+    double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
+    traits->list_chunks = (uint32_t)ceil(list_margin * neighbors / 8.0) + 1;
+    uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
+    uint64_t bytes = 16 * 128 * blocks * (traits->list_chunks + 1);
+    if (bytes > most_bytes || is_short(constants, reach)) traits->list_chunks = 0;
+    traits->least_allowance = (uint32_t)(least_allowance * support);
+    traits->most_allowance = (uint32_t)(most_allowance * support);
+    // One row on either side holds all of a list.
+    uint32_t height = traits->list_chunks > 0 ? (uint32_t)(reach * support) + 16 : 1u << constants->row_shift;
+    traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;
+    double pairs = constants->particle_count * lattice_neighbors(parameters, constants->dimension, 1.0);
+    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED ||
+                 traits->emitter_count > 0;
+    traits->sort_interval = every ? 1 : 4;
+}
+
+static uint32_t rows_of(uint32_t rows, uint32_t shift, uint32_t height)
+{
+    uint64_t extent = (uint64_t)rows << shift;
+    return (uint32_t)((extent + height - 1) / height);
+}
+
+WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirConstants *constants)
+{
+    WeirConstants cells = *constants;
+    cells.cell_rows = rows_of(constants->cell_rows, constants->row_shift, traits->row_height);
+    cells.cell_layers = constants->dimension == 3
+                            ? rows_of(constants->cell_layers, constants->row_shift, traits->row_height)
+                            : 1;
+    cells.cell_count = cells.cell_columns * cells.cell_rows * cells.cell_layers;
+    return cells;
+}
