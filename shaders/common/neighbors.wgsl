@@ -1,5 +1,6 @@
-// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, add_pair() and
-// state_of(), what add_pair wants to know of a neighbour but its coordinate.
+// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, add_pair(),
+// state_of(), what add_pair wants to know of a neighbour but its coordinate, and add_itself(), what the particle adds to
+// its own sums: a list may hold it several times, and each time `itself` keeps it from adding anything.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then, eight to a chunk; so it misses nobody while no particle has moved farther than
@@ -16,9 +17,14 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
         if header.x != NO_LIST {
             for (var c = 1u; c <= header.x; c++) {
                 let chunk = neighbor_list[chunk_index(i, c)];
-                add_four(&sums, i, place, own, start, header, chunk.xy);
-                add_four(&sums, i, place, own, start, header, chunk.zw);
+                let low = vec4u(listed(i, header, chunk.x & 0xffffu), listed(i, header, chunk.x >> 16u),
+                                listed(i, header, chunk.y & 0xffffu), listed(i, header, chunk.y >> 16u));
+                let high = vec4u(listed(i, header, chunk.z & 0xffffu), listed(i, header, chunk.z >> 16u),
+                                 listed(i, header, chunk.w & 0xffffu), listed(i, header, chunk.w >> 16u));
+                add_four(&sums, i, place, own, start, low);
+                add_four(&sums, i, place, own, start, high);
             }
+            add_itself(&sums, own);
             return sums;
         }
     }
@@ -30,7 +36,7 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
             let other = coordinate[start + j];
             let offset = Vector(walk.place - place_of(other));
             if BRANCH_FREE || dot(offset, offset) < support * support {
-                add_pair(&sums, own, other, state_of(start, j), offset, j == i);
+                add_pair(&sums, own, other, state_of(start, j), offset, false);
             }
         }
     }
@@ -38,21 +44,21 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
 }
 
 // Loads first, so that they wait for memory together.
-fn add_four(sums: ptr<function, Sums>, i: u32, place: Place, own: Own, start: u32, header: vec4u, entries: vec2u) {
-    let a = listed(i, header, entries.x & 0xffffu);
-    let b = listed(i, header, entries.x >> 16u);
-    let c = listed(i, header, entries.y & 0xffffu);
-    let d = listed(i, header, entries.y >> 16u);
-    let other_a = coordinate[start + a];
-    let other_b = coordinate[start + b];
-    let other_c = coordinate[start + c];
-    let other_d = coordinate[start + d];
-    let state_a = state_of(start, a);
-    let state_b = state_of(start, b);
-    let state_c = state_of(start, c);
-    let state_d = state_of(start, d);
-    add_pair(sums, own, other_a, state_a, Vector(nearest(place - place_of(other_a))), a == i);
-    add_pair(sums, own, other_b, state_b, Vector(nearest(place - place_of(other_b))), b == i);
-    add_pair(sums, own, other_c, state_c, Vector(nearest(place - place_of(other_c))), c == i);
-    add_pair(sums, own, other_d, state_d, Vector(nearest(place - place_of(other_d))), d == i);
+fn add_four(sums: ptr<function, Sums>, i: u32, place: Place, own: Own, start: u32, slots: vec4u) {
+    let a = coordinate[start + slots.x];
+    let b = coordinate[start + slots.y];
+    let c = coordinate[start + slots.z];
+    let d = coordinate[start + slots.w];
+    let state_a = state_of(start, slots.x);
+    let state_b = state_of(start, slots.y);
+    let state_c = state_of(start, slots.z);
+    let state_d = state_of(start, slots.w);
+    add_pair(sums, own, a, state_a, offset_to(place, a), slots.x == i);
+    add_pair(sums, own, b, state_b, offset_to(place, b), slots.y == i);
+    add_pair(sums, own, c, state_c, offset_to(place, c), slots.z == i);
+    add_pair(sums, own, d, state_d, offset_to(place, d), slots.w == i);
+}
+
+fn offset_to(place: Place, other: vec4i) -> Vector {
+    return Vector(nearest(place - place_of(other)));
 }

@@ -37,12 +37,18 @@ fn nearest_z(way: Place) -> Place {
     return way;
 }
 
-// neighbors.wgsl: an entry is j - i in 16 bits.
-const NO_ENTRY = 0xffffffffu;
+// neighbors.wgsl: an entry is j - i in 16 bits, so what is added to j.
+fn entry_shift(i: u32, first: u32, layer: u32) -> u32 {
+    return 0u - i;
+}
 
-fn entry_of(i: u32, header: vec4u, layer: u32, j: u32) -> u32 {
-    let way = i32(j) - i32(i);
-    return select(NO_ENTRY, u32(way) & 0xffffu, way == ((way << 16u) >> 16u));
+fn run_fits(i: u32, first: u32, layer: u32, begin: u32, end: u32) -> bool {
+    return i32(begin) - i32(i) >= -32768 && i32(end) - i32(i) <= 32768;
+}
+
+// i's own: it adds nothing.
+fn own_entry(i: u32, header: vec4u) -> u32 {
+    return 0u;
 }
 
 fn listed(i: u32, header: vec4u, entry: u32) -> u32 {

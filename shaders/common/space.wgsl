@@ -39,13 +39,21 @@ fn nearest_z(way: Place) -> Place {
     return vec3i(way.xy, near_image(way.z, constants.period_z));
 }
 
-// neighbors.wgsl: an entry is the layer in two bits, and in 14 how far j lies behind the layer's first candidate.
-const NO_ENTRY = 0xffffffffu;
+// neighbors.wgsl: an entry is the layer in two bits, and in 14 how far j lies behind the layer's first candidate, so what
+// is added to j.
+fn entry_shift(i: u32, first: u32, layer: u32) -> u32 {
+    return (layer << 14u) - first;
+}
 
-fn entry_of(i: u32, header: vec4u, layer: u32, j: u32) -> u32 {
-    let first = select(select(header.w, header.z, layer == 1u), header.y, layer == 0u);
-    let way = j - first;
-    return select(NO_ENTRY, (layer << 14u) | way, layer < 3u && way < 16384u);
+fn run_fits(i: u32, first: u32, layer: u32, begin: u32, end: u32) -> bool {
+    return layer < 3u && begin >= first && end - first <= 16384u;
+}
+
+// i's own: it adds nothing. 0xffff: none of the layers reaches so far.
+fn own_entry(i: u32, header: vec4u) -> u32 {
+    return select(select(select(0xffffu, 0x8000u | (i - header.w), i - header.w < 16384u),
+                         0x4000u | (i - header.z), i - header.z < 16384u),
+                  i - header.y, i - header.y < 16384u);
 }
 
 fn listed(i: u32, header: vec4u, entry: u32) -> u32 {

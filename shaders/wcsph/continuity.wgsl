@@ -39,6 +39,7 @@ fn take_drift(way: u32) {
 
 struct Own {
     motion: vec4f,
+    hydrostatic: Vector, // density by height, per quantum
 }
 
 struct Sums {
@@ -50,18 +51,18 @@ fn state_of(start: u32, j: u32) -> vec4f {
     return kicked[j];
 }
 
+fn add_itself(sums: ptr<function, Sums>, own: Own) {
+}
+
 // The kernel is 0 beyond the support.
 fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
-    let c = constants.sound_speed;
-    // Density by height, per quantum.
-    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
     let acts = !(CAN_EMPTY && u32(other.w) == GROUP_EMPTY);
     let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
     let slope = kernel_slope(sqrt(dot(offset, offset)) * constants.inverse_support) * inverse_density;
     (*sums).divergence += slope * dot(vector_of(own.motion) - vector_of(neighbor), offset);
     if DIFFUSION {
         // rho_j - rho_i less what the height between them makes
-        let excess = neighbor.w - own.motion.w + dot(offset, hydrostatic);
+        let excess = neighbor.w - own.motion.w + dot(offset, own.hydrostatic);
         (*sums).diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
     }
 }
@@ -69,7 +70,8 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
 // Of the particle in slot i. `shift_rate`: what shifting adds, drho/dt / rho.
 fn density_rate(i: u32, own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
     let c = constants.sound_speed;
-    let sums = sum_pairs(i, place_of(own), Own(own_motion), side_start(control.last_side),
+    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
+    let sums = sum_pairs(i, place_of(own), Own(own_motion, hydrostatic), side_start(control.last_side),
                          control.travelled - control.sorted_at, control.allowance);
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;

@@ -18,11 +18,17 @@ fn count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     if !is_sorting() {
         return;
     }
+    let stride = workgroups.x * workgroups.y * WORKGROUP_SIZE;
+    for (var first = workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE; first < constants.particle_count; first += stride) {
+        count_block(first + local, local);
+    }
+}
+
+fn count_block(i: u32, local: u32) {
     if local == 0u {
         atomicStore(&empty_slots, 0u);
     }
     workgroupBarrier();
-    let i = thread_index(workgroup, workgroups, local);
     var is_empty = false;
     var own = 0u;
     var rank = 0u;

@@ -48,30 +48,39 @@ struct Own {
     velocity: Vector,
     solid: bool, // one of a solid, on which only fluid acts
     stick: f32,
+    inverse_spacing_value: f32, // the same for all: not to be divided again for each pair
+    soft: f32,
+    inverse_density: f32,
 }
 
 // Whether forces on solid particles are asked for.
 const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
 
 fn own_of(own: vec4i, own_motion: vec4f) -> Own {
-    return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)));
+    let h = constants.smoothing_length * constants.inverse_quantum;
+    return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)),
+               1.0 / constants.spacing_value, 1e-4 * h * h, 1.0 / (parameters.rest_density + own_motion.w));
 }
 
 fn state_of(start: u32, j: u32) -> vec4f {
     return motion[start + j];
 }
 
+fn add_itself(sums: ptr<function, Sums>, own: Own) {
+    (*sums).filling += kernel_shape(0.0) * own.inverse_density;
+}
+
 // The kernel is 0 beyond the support.
 fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
-    let h = constants.smoothing_length * constants.inverse_quantum;
     let group = u32(other.w);
+    let solid = ON_SOLIDS && own.solid;
     let fluid = !HAS_SOLIDS || !is_solid(group);
-    let acts = !(ON_SOLIDS && !fluid && own.solid) && !(CAN_EMPTY && group == GROUP_EMPTY);
+    let acts = !(solid && !fluid) && !(CAN_EMPTY && group == GROUP_EMPTY);
     let r_squared = dot(offset, offset);
     let s = sqrt(r_squared) * constants.inverse_support;
     let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
     let slope = kernel_slope(s) * inverse_density;
-    let both_fluid = select(0.0, slope, fluid && !own.solid);
+    let both_fluid = select(0.0, slope, fluid && !solid);
     var pressure = pressure_of(neighbor.w);
     if TAIT && !fluid {
         pressure = linear_pressure(neighbor.w);
@@ -79,7 +88,7 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
     let relative = own.velocity - vector_of(neighbor);
     var along = slope * pressure;
     if VISCOUS {
-        let approach = both_fluid * dot(relative, offset) / (r_squared + 1e-4 * h * h);
+        let approach = both_fluid * dot(relative, offset) / (r_squared + own.soft);
         if LAMINAR {
             (*sums).viscous += approach * offset;
         } else {
@@ -91,18 +100,16 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
     }
     (*sums).gradient += slope * offset;
     (*sums).pressure += along * offset;
-    if HAS_SOLIDS {
-        let mixed = acts && fluid == own.solid;
+    if HAS_SOLIDS && acts && fluid == solid {
         if FRICTION {
-            (*sums).friction += select(0.0, slope * own.stick * sticks(group), mixed) * relative;
+            (*sums).friction += (slope * own.stick * sticks(group)) * relative;
         }
-        let gap = quanta_of_spacings(BRAKE_RANGE) - sqrt(r_squared);
-        (*sums).solid_gap = max((*sums).solid_gap, select(0.0, gap, mixed));
+        (*sums).solid_gap = max((*sums).solid_gap, quanta_of_spacings(BRAKE_RANGE) - sqrt(r_squared));
     }
     let shape = kernel_shape(s);
     (*sums).filling += select(shape * inverse_density, 0.0, itself);
     if SHIFTING {
-        (*sums).clustering += (slope * power4(shape * (1.0 / constants.spacing_value))) * offset;
+        (*sums).clustering += (slope * power4(shape * own.inverse_spacing_value)) * offset;
     }
     (*sums).surface += slope * r_squared;
 }
@@ -346,8 +353,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
-    let filling = constants.particle_mass * constants.kernel_factor
-        * (sums.filling + kernel_shape(0.0) / (parameters.rest_density + own_motion.w));
+    let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
     if full * sums.surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling {
         shift.w += (filling - constants.lattice_filling) * constants.sound_speed
             / (VOLUME_TIME * constants.smoothing_length);

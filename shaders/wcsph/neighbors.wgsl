@@ -14,51 +14,68 @@
 fn make_list(i: u32, own: vec4i, start: u32) {
     let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
     let solid = is_solid(u32(own.w));
+    let limit = f32(reach) * f32(reach);
     var header = vec4u(0u);
     var layer = 0xffffffffu;
+    var layer_first = 0u;
     var chunk = vec4u(0u);
     var count = 0u;
     var fits = true;
     var walk = walk_around(place_of(own), i32(reach));
     while next_run(&walk) {
-        let first = cell_start[walk.first_cell];
+        let begin = cell_start[walk.first_cell];
         let end = cell_start[walk.end_cell];
-        if walk.run_layer != layer && first < end {
-            layer = walk.run_layer;
-            header = select(select(vec4u(header.xyz, first), vec4u(header.xy, first, header.w), layer == 1u),
-                            vec4u(header.x, first, header.zw), layer == 0u);
+        if begin >= end {
+            continue;
         }
-        for (var j = first; j < end; j++) {
-            let other = coordinate[start + j];
-            let offset = Vector(walk.place - place_of(other));
-            if dot(offset, offset) < f32(reach) * f32(reach) && !(solid && is_solid(u32(other.w))) {
-                let entry = entry_of(i, header, layer, j);
-                fits = fits && entry != NO_ENTRY;
-                chunk = (chunk >> vec4u(16u)) | (vec4u(chunk.yzw, entry) << vec4u(16u));
-                count += 1u;
-                if count % 8u == 0u && count <= 8u * LIST_CHUNKS {
-                    neighbor_list[chunk_index(i, count / 8u)] = chunk;
+        if walk.run_layer != layer {
+            layer = walk.run_layer;
+            layer_first = begin;
+            header = select(select(vec4u(header.xyz, begin), vec4u(header.xy, begin, header.w), layer == 1u),
+                            vec4u(header.x, begin, header.zw), layer == 0u);
+        }
+        fits = fits && run_fits(i, layer_first, layer, begin, end);
+        let shift = entry_shift(i, layer_first, layer);
+        for (var j = begin; j < end; j += 4u) {
+            // Loads first, so that they wait for memory together.
+            let four = min(j + vec4u(0u, 1u, 2u, 3u), vec4u(end - 1u));
+            let others = array(coordinate[start + four.x], coordinate[start + four.y], coordinate[start + four.z],
+                               coordinate[start + four.w]);
+            let near = vec4<bool>(is_near(walk.place, others[0], limit, solid), is_near(walk.place, others[1], limit, solid),
+                                  is_near(walk.place, others[2], limit, solid), is_near(walk.place, others[3], limit, solid))
+                & (j + vec4u(0u, 1u, 2u, 3u) < vec4u(end));
+            for (var k = 0u; k < 4u; k++) {
+                if near[k] {
+                    chunk = pushed(chunk, j + k + shift);
+                    count += 1u;
+                    if count % 8u == 0u && count <= 8u * LIST_CHUNKS {
+                        neighbor_list[chunk_index(i, count / 8u)] = chunk;
+                    }
                 }
             }
         }
     }
     fits = fits && count <= 8u * LIST_CHUNKS;
-    // The last chunk is filled with the particle itself, which adds nothing.
+    // The last chunk is filled with the particle itself.
     if fits && count % 8u != 0u {
-        let self_entry = entry_of(i, header, own_layer(header, i), i);
-        fits = self_entry != NO_ENTRY;
-        while count % 8u != 0u {
-            chunk = (chunk >> vec4u(16u)) | (vec4u(chunk.yzw, self_entry) << vec4u(16u));
-            count += 1u;
+        let self_entry = own_entry(i, header);
+        fits = self_entry != 0xffffu;
+        for (; count % 8u != 0u; count++) {
+            chunk = pushed(chunk, self_entry);
         }
         neighbor_list[chunk_index(i, count / 8u)] = chunk;
     }
     neighbor_list[chunk_index(i, 0u)] = vec4u(select(NO_LIST, count / 8u, fits), header.yzw);
 }
 
-// The layer whose entries reach the particle itself.
-fn own_layer(header: vec4u, i: u32) -> u32 {
-    return select(select(2u, 1u, i - header.z < 16384u), 0u, i - header.y < 16384u);
+fn is_near(place: Place, other: vec4i, limit: f32, solid: bool) -> bool {
+    let offset = Vector(place - place_of(other));
+    return dot(offset, offset) < limit && !(HAS_SOLIDS && solid && is_solid(u32(other.w)));
+}
+
+// A chunk with an entry more; its first one falls out.
+fn pushed(chunk: vec4u, entry: u32) -> vec4u {
+    return (chunk >> vec4u(16u)) | (vec4u(chunk.yzw, entry) << vec4u(16u));
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -67,13 +84,17 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
     if !is_sorting() {
         return;
     }
-    let i = thread_index(workgroup, workgroups, local);
-    for (var cell = i; cell <= constants.cell_count; cell += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
+    let thread = thread_index(workgroup, workgroups, local);
+    let threads = workgroups.x * workgroups.y * WORKGROUP_SIZE;
+    for (var cell = thread; cell <= constants.cell_count; cell += threads) {
         cell_link[cell] = 0u;
     }
-    if i >= constants.particle_count {
-        return;
+    for (var i = thread; i < constants.particle_count; i += threads) {
+        note_particle(i);
     }
+}
+
+fn note_particle(i: u32) {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
         solid_slot[sorted_id[i] - constants.first_solid] = i;

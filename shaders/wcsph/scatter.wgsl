@@ -14,15 +14,21 @@
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
            @builtin(local_invocation_index) local: u32) {
-    let i = thread_index(workgroup, workgroups, local);
     let sorts = control.sorting == 1u && control.running == 1u && is_well(control.bad_step, control.restored);
-    if i >= constants.particle_count || !sorts {
+    if !sorts {
         return;
     }
-    if i == 0u {
+    let thread = thread_index(workgroup, workgroups, local);
+    if thread == 0u {
         control.sorted_at = control.travelled + control.moved_finish + control.moved_drift;
         control.allowance = control.next_allowance;
     }
+    for (var i = thread; i < constants.particle_count; i += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
+        move_particle(i);
+    }
+}
+
+fn move_particle(i: u32) {
     let next = constants.cell_count + 1u;
     let at = coordinate[i];
     let place = wrapped(place_of(at));

@@ -25,6 +25,9 @@ fn state_of(start: u32, j: u32) -> vec4f {
     return motion[start + j];
 }
 
+fn add_itself(sums: ptr<function, Sums>, own: Own) {
+}
+
 // The kernel is 0 beyond the support.
 fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, fluid: vec4f, offset: Vector, itself: bool) {
     let s = sqrt(dot(offset, offset)) * constants.inverse_support;

@@ -12,7 +12,8 @@ typedef enum WeirItems {
     WEIR_ITEMS_CELL_BLOCKS, // one workgroup per block of the scan
     WEIR_ITEMS_ONE,         // one workgroup
     WEIR_ITEMS_SOLIDS,      // one thread per solid particle (wcsph)
-    WEIR_ITEMS_BLOCKS,      // one workgroup per block of solid particles (wcsph)
+    WEIR_ITEMS_SORTING, // threads that may take several particles each: they often have nothing to do (wcsph)
+    WEIR_ITEMS_BLOCKS,  // one workgroup per block of solid particles (wcsph)
     WEIR_ITEMS_FREE_BLOCKS, // the same of free bodies alone
     WEIR_ITEMS_TOTAL
 } WeirItems;

@@ -12,6 +12,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// Workgroups that fill a large device; passes that often have nothing to do start no more of them.
+enum { MOST_SORTING = 2048 };
+
 // ---- The step ----
 
 static void record_emission(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
@@ -267,6 +270,8 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
     common->passes.groups[WEIR_ITEMS_SOLIDS] =
         (solid_particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    uint32_t groups = common->passes.groups[WEIR_ITEMS_PARTICLES];
+    common->passes.groups[WEIR_ITEMS_SORTING] = groups < MOST_SORTING ? groups : MOST_SORTING;
     common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
     common->passes.groups[WEIR_ITEMS_FREE_BLOCKS] = solver->traits.free_block_count;
     status = configure(&common->base, &setup->parameters, &setup->constants);

@@ -3,11 +3,14 @@
 
 #include <math.h>
 
+// What suits which fluid was measured on an H100 (docs/performance.md, tries).
 // Shares of the support radius. A list reaches two allowances beyond the support.
-static const double least_allowance = 0.03, most_allowance = 0.08;
+static const double least_allowance = 0.03, most_allowance = 0.08, walk_allowance = 0.02;
 // Neighbours that a list has room for, in those of the lattice: fluid may be squeezed, and disordered.
 static const double list_margin = 1.25;
-// Sorting costs five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
+// In 2D lists only pay while they fit the device's cache.
+static const double most_pairs_of_lists_2d = 1e7;
+// Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
 static const double pairs_for_every_step = 2e7;
 
 static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
@@ -26,21 +29,32 @@ static bool is_short(const WeirConstants *constants, double reach)
     return false;
 }
 
+// 0: none.
+static uint32_t chunks_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
+                                double pairs, uint64_t most_bytes)
+{
+    double reach = 1.0 + 2.0 * most_allowance;
+    double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
+    uint32_t chunks = (uint32_t)ceil(list_margin * neighbors / 8.0) + 1;
+    uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
+    bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d;
+    bool fits = 16 * 128 * blocks * (chunks + 1) <= most_bytes;
+    return pays && fits && !is_short(constants, reach) ? chunks : 0;
+}
+
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
                          const WeirConstants *constants, uint64_t most_bytes)
 {
-    double support = (double)(1u << constants->coordinate_bits), reach = 1.0 + 2.0 * most_allowance;
-    double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
-    traits->list_chunks = (uint32_t)ceil(list_margin * neighbors / 8.0) + 1;
-    uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
-    uint64_t bytes = 16 * 128 * blocks * (traits->list_chunks + 1);
-    if (bytes > most_bytes || is_short(constants, reach)) traits->list_chunks = 0;
-    traits->least_allowance = (uint32_t)(least_allowance * support);
-    traits->most_allowance = (uint32_t)(most_allowance * support);
-    // One row on either side holds all of a list.
-    uint32_t height = traits->list_chunks > 0 ? (uint32_t)(reach * support) + 16 : 1u << constants->row_shift;
-    traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;
+    double support = (double)(1u << constants->coordinate_bits);
     double pairs = constants->particle_count * lattice_neighbors(parameters, constants->dimension, 1.0);
+    traits->list_chunks = chunks_of_lists(parameters, constants, pairs, most_bytes);
+    bool lists = traits->list_chunks > 0;
+    double least = lists ? least_allowance : walk_allowance, most = lists ? most_allowance : walk_allowance;
+    traits->least_allowance = (uint32_t)(least * support);
+    traits->most_allowance = (uint32_t)(most * support);
+    // One row on either side holds all of a list, or what a walk wants while the order lasts.
+    uint32_t height = (uint32_t)((1.0 + (lists ? 2.0 : 1.0) * most) * support) + 16;
+    traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED ||
                  traits->emitter_count > 0;
     traits->sort_interval = every ? 1 : 4;

@@ -146,11 +146,67 @@ static void follows_the_cpu(void **state)
         if (!only || strcmp(only, weir_test_cases[n].name) == 0) run_case(&weir_test_cases[n]);
 }
 
+// Where particles outrun their lists before they may be sorted anew, the walk over cells finds the same neighbours: here
+// lists are made for a way of one quantum.
+static void outrun_lists_lose_nobody(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"dam_2d", "periodic_3d", "bodies_2d"};
+    for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
+        WeirTestWorld test = weir_test_case(names[n]);
+        WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
+        WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
+        WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
+        assert_int_equal(solver->traits.sort_interval, 4);
+        solver->traits.least_allowance = solver->traits.most_allowance = 1;
+        WeirParameters parameters = solver->common.parameters;
+        WeirConstants constants = solver->common.constants;
+        assert_int_equal(on_gpu->interface->configure(on_gpu, &parameters, &constants), WEIR_OK);
+        uint32_t outrun = 0;
+        for (int k = 0; k < 20; ++k) {
+            take_steps(on_gpu, 3, INFINITY);
+            take_steps(on_cpu, 3, INFINITY);
+            health_of(on_gpu);
+            outrun += solver->seen.travelled - solver->seen.sorted_at > solver->seen.allowance;
+        }
+        assert_true(outrun > 5);
+        assert_int_equal(solver->seen.allowance, 1);
+        compare(names[n], &test, on_gpu, on_cpu, 2e-3);
+        on_gpu->interface->destroy(on_gpu);
+        on_cpu->interface->destroy(on_cpu);
+        weir_test_world_free(&test);
+    }
+}
+
+// Without lists, as where a device's buffers are too small for them, the walk alone finds the neighbours.
+static void walks_find_what_lists_find(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"dam_2d", "body_3d"};
+    uint64_t own = gpu->limits.maxStorageBufferBindingSize;
+    for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
+        WeirTestWorld test = weir_test_case(names[n]);
+        WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
+        gpu->limits.maxStorageBufferBindingSize = 64 * (uint64_t)test.world.particles.count;
+        WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
+        gpu->limits.maxStorageBufferBindingSize = own;
+        assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_chunks, 0);
+        take_steps(on_gpu, 40, INFINITY);
+        take_steps(on_cpu, 40, INFINITY);
+        compare(names[n], &test, on_gpu, on_cpu, 2e-3);
+        on_gpu->interface->destroy(on_gpu);
+        on_cpu->interface->destroy(on_cpu);
+        weir_test_world_free(&test);
+    }
+}
+
 int main(void)
 {
     gpu = weir_test_gpu(NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(follows_the_cpu),
+        cmocka_unit_test(outrun_lists_lose_nobody),
+        cmocka_unit_test(walks_find_what_lists_find),
     };
     int failed = cmocka_run_group_tests_name("wcsph", tests, NULL, NULL);
     weir_gpu_destroy(gpu);
