@@ -17,12 +17,13 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
         if header.x != NO_LIST {
             for (var c = 1u; c <= header.x; c++) {
                 let chunk = neighbor_list[chunk_index(i, c)];
-                let low = vec4u(listed(i, header, chunk.x & 0xffffu), listed(i, header, chunk.x >> 16u),
-                                listed(i, header, chunk.y & 0xffffu), listed(i, header, chunk.y >> 16u));
-                let high = vec4u(listed(i, header, chunk.z & 0xffffu), listed(i, header, chunk.z >> 16u),
-                                 listed(i, header, chunk.w & 0xffffu), listed(i, header, chunk.w >> 16u));
-                add_four(&sums, i, place, own, start, low);
-                add_four(&sums, i, place, own, start, high);
+                // Not unrolled by hand: software adapters would compile it for a minute.
+                for (var half = 0u; half < 2u; half++) {
+                    let words = select(chunk.zw, chunk.xy, half == 0u);
+                    let slots = vec4u(listed(i, header, words.x & 0xffffu), listed(i, header, words.x >> 16u),
+                                      listed(i, header, words.y & 0xffffu), listed(i, header, words.y >> 16u));
+                    add_four(&sums, i, place, own, start, slots);
+                }
             }
             add_itself(&sums, own);
             return sums;
