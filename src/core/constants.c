@@ -53,12 +53,40 @@ static void make_mueller(WeirConstants *constants, const WeirScene *scene, const
     weir_grid_make(constants, scene->domain_min, scene->domain_max);
 }
 
+// A grid of `lines` cells along each axis, all that the domain has, to at most `limit` cells: first folded where it is
+// longest (grid.h), then with larger cells. `shift`: sizes of a cell, in powers of two quanta.
+static void fit_grid(const WeirConstants *constants, const double extent[3], double limit, uint32_t shift[3],
+                     double lines[3])
+{
+    static const double least[3] = {WEIR_LEAST_COLUMNS, WEIR_LEAST_ROWS, WEIR_LEAST_ROWS};
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    bool grown = true;
+    for (;;) {
+        for (int axis = 0; axis < 3 && grown; ++axis)
+            lines[axis] = floor(extent[axis] / (double)(1u << shift[axis])) + 1.0;
+        if (lines[0] * lines[1] * lines[2] <= limit) return;
+        int longest = -1;
+        double length = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            double own = lines[axis] * (double)(1u << shift[axis]);
+            if (periods[axis] || 0.75 * lines[axis] < least[axis] || own <= length) continue;
+            longest = axis;
+            length = own;
+        }
+        grown = longest < 0;
+        if (!grown) {
+            lines[longest] = floor(0.75 * lines[longest]);
+        } else if (++shift[0] > shift[1]) {
+            shift[1] = shift[2] = shift[0];
+        }
+    }
+}
+
 // Coordinates and cells of `wcsph`. The grid reaches two support radii beyond the domain, for walls; not along
-// periodic axes. Cells are one support radius high and deep and an eighth as wide, and grow where they would
-// outnumber the particles 4 to 1.
+// periodic axes. Cells are one support radius high and deep and an eighth as wide, at most 4 per particle.
 static void make_coordinates(WeirConstants *constants, const WeirScene *scene, double support_radius)
 {
-    double extent[3] = {0.0, 0.0, 0.0}, longest = 0.0;
+    double extent[3] = {0.0, 0.0, 0.0}, lines[3], longest = 0.0;
     for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
         double margin = scene->periodic[axis] ? 0.0 : 2.0 * support_radius;
         constants->origin[axis] = (float)(scene->domain_min[axis] - margin);
@@ -77,21 +105,16 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     for (int axis = 0; axis < 3; ++axis) {
         double period = scene->domain_max[axis] - scene->domain_min[axis];
         *periods[axis] = scene->periodic[axis] ? (uint32_t)floor(period / quantum + 0.5) : 0;
+        extent[axis] /= quantum;
     }
-    uint32_t column = bits - 3, row = bits;
+    uint32_t shift[3] = {bits - 3, bits, bits};
     double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0);
-    for (;;) {
-        double columns = floor(extent[0] / quantum / (double)(1u << column)) + 1.0;
-        double rows = floor(extent[1] / quantum / (double)(1u << row)) + 1.0;
-        double layers = floor(extent[2] / quantum / (double)(1u << row)) + 1.0;
-        constants->cell_columns = (uint32_t)columns;
-        constants->cell_rows = (uint32_t)rows;
-        constants->cell_layers = (uint32_t)layers;
-        if (columns * rows * layers <= limit) break;
-        if (++column > row) row = column;
-    }
-    constants->column_shift = column;
-    constants->row_shift = row;
+    fit_grid(constants, extent, limit, shift, lines);
+    constants->cell_columns = (uint32_t)lines[0];
+    constants->cell_rows = (uint32_t)lines[1];
+    constants->cell_layers = (uint32_t)lines[2];
+    constants->column_shift = shift[0];
+    constants->row_shift = shift[1];
     constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
 }
 

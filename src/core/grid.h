@@ -43,10 +43,23 @@ static inline uint32_t weir_grid_row(const WeirConstants *constants, float y)
 }
 
 // `wcsph`: positions are whole numbers of quanta (32-bit, from constants.origin), so that differences are exact
-// however large the domain; cells are powers of two of them. Cell of a coordinate, clamped into the grid.
+// however large the domain; cells are powers of two of them. A line is a column, row or layer of cells. Where the domain
+// has more lines than the grid, it is folded: lines that lie the grid's count apart share their cells. So what is
+// far away may be a candidate, but never a neighbour, and memory is bound to the particles wherever they are.
+static inline uint32_t weir_grid_line(int32_t coordinate, uint32_t shift)
+{
+    return coordinate < 0 ? 0 : (uint32_t)coordinate >> shift;
+}
+
+static inline uint32_t weir_grid_fold(uint32_t line, uint32_t count)
+{
+    return line < count ? line : line % count;
+}
+
 static inline uint32_t weir_grid_cell(int32_t coordinate, uint32_t shift, uint32_t count)
 {
-    if (coordinate < 0) return 0;
-    uint32_t cell = (uint32_t)coordinate >> shift;
-    return cell < count ? cell : count - 1;
+    return weir_grid_fold(weir_grid_line(coordinate, shift), count);
 }
+
+// Folded grids have at least so many columns, and rows and layers: more than any search spans.
+enum { WEIR_LEAST_COLUMNS = 64, WEIR_LEAST_ROWS = 8 };

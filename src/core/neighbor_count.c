@@ -13,6 +13,7 @@ enum { TABLE_SIZE = 1 << 16 };
 typedef struct Rows {
     uint32_t dimension, cells[3];
     double origin[3], inverse_cell[3], radius;
+    bool folded; // wcsph
 } Rows;
 
 // Columns first to last of one row, as particle `i` visits them.
@@ -34,7 +35,8 @@ static Rows make_rows(const WeirParameters *parameters, const WeirConstants *con
     bool quanta = constants->coordinate_bits > 0;
     Rows rows = {.dimension = constants->dimension,
                  .cells = {constants->cell_columns, constants->cell_rows, constants->cell_layers},
-                 .radius = parameters->support_radius};
+                 .radius = parameters->support_radius,
+                 .folded = quanta};
     const double inverse[3] = {constants->inverse_cell_width, constants->inverse_cell_height, 0.0};
     for (int axis = 0; axis < 3; ++axis) {
         uint32_t shift = axis == 0 ? constants->column_shift : constants->row_shift;
@@ -45,10 +47,12 @@ static Rows make_rows(const WeirParameters *parameters, const WeirConstants *con
     return rows;
 }
 
-static uint32_t cell_at(const Rows *rows, int axis, double place)
+// Column, row or layer of a place, before the grid is folded (grid.h).
+static uint32_t line_at(const Rows *rows, int axis, double place)
 {
-    return weir_grid_clamp((float)((place - rows->origin[axis]) * rows->inverse_cell[axis]),
-                           rows->cells[axis]);
+    double line = (place - rows->origin[axis]) * rows->inverse_cell[axis];
+    if (!rows->folded) return weir_grid_clamp((float)line, rows->cells[axis]);
+    return line > 0.0 ? (uint32_t)fmin(line, 4e9) : 0;
 }
 
 // Distance of a place from cell `cell` along an axis.
@@ -63,7 +67,7 @@ static uint32_t bucket_of(uint32_t row)
     return (row * 2654435761u) >> 16;
 }
 
-static bool add_visit(Sample *sample, uint32_t i, uint32_t row, double x, double chord)
+static bool add_visit(Sample *sample, const Visit *visit)
 {
     if (sample->visit_count == sample->visit_capacity) {
         size_t capacity = sample->visit_capacity ? 2 * sample->visit_capacity : 4096;
@@ -72,11 +76,31 @@ static bool add_visit(Sample *sample, uint32_t i, uint32_t row, double x, double
         sample->visits = larger;
         sample->visit_capacity = capacity;
     }
-    uint32_t *head = &sample->head[bucket_of(row)];
-    sample->visits[sample->visit_count] =
-        (Visit){i, row, cell_at(&sample->rows, 0, x - chord), cell_at(&sample->rows, 0, x + chord), *head};
-    *head = (uint32_t)++sample->visit_count;
+    uint32_t *head = &sample->head[bucket_of(visit->row)];
+    Visit *own = &sample->visits[sample->visit_count++];
+    *own = *visit;
+    own->next = *head;
+    *head = (uint32_t)sample->visit_count;
     return true;
+}
+
+// The columns of a row in reach: one visit, or two where the grid is folded between them.
+static bool add_columns(Sample *sample, uint32_t i, uint32_t row, double x, double chord)
+{
+    const Rows *rows = &sample->rows;
+    uint32_t columns = rows->cells[0], first = line_at(rows, 0, x - chord);
+    uint32_t count = line_at(rows, 0, x + chord) - first + 1;
+    if (count >= columns) return add_visit(sample, &(Visit){i, row, 0, columns - 1, 0});
+    first = weir_grid_fold(first, columns);
+    uint32_t end = first + count;
+    if (end <= columns) return add_visit(sample, &(Visit){i, row, first, end - 1, 0});
+    return add_visit(sample, &(Visit){i, row, first, columns - 1, 0}) &&
+           add_visit(sample, &(Visit){i, row, 0, end - columns - 1, 0});
+}
+
+static uint32_t row_of(const Rows *rows, uint32_t row, uint32_t layer)
+{
+    return weir_grid_fold(layer, rows->cells[2]) * rows->cells[1] + weir_grid_fold(row, rows->cells[1]);
 }
 
 static bool add_particle(Sample *sample, uint32_t i)
@@ -85,14 +109,14 @@ static bool add_particle(Sample *sample, uint32_t i)
     const float *place = &sample->state->position[(size_t)rows->dimension * i];
     bool deep = rows->dimension == 3;
     double z = deep ? place[2] : 0.0, r = rows->radius;
-    uint32_t layer = deep ? cell_at(rows, 2, z - r) : 0, last_layer = deep ? cell_at(rows, 2, z + r) : 0;
+    uint32_t layer = deep ? line_at(rows, 2, z - r) : 0, last_layer = deep ? line_at(rows, 2, z + r) : 0;
     for (; layer <= last_layer; ++layer) {
         double dz = deep ? distance_to(rows, 2, layer, z) : 0.0;
-        uint32_t last_row = cell_at(rows, 1, place[1] + r);
-        for (uint32_t row = cell_at(rows, 1, place[1] - r); row <= last_row; ++row) {
+        uint32_t last_row = line_at(rows, 1, place[1] + r);
+        for (uint32_t row = line_at(rows, 1, place[1] - r); row <= last_row; ++row) {
             double dy = distance_to(rows, 1, row, place[1]), chord2 = r * r - dy * dy - dz * dz;
             if (chord2 <= 0.0) continue;
-            if (!add_visit(sample, i, layer * rows->cells[1] + row, place[0], sqrt(chord2))) return false;
+            if (!add_columns(sample, i, row_of(rows, row, layer), place[0], sqrt(chord2))) return false;
         }
     }
     return true;
@@ -103,10 +127,10 @@ static void pass_by(Sample *sample, uint32_t j)
     const Rows *rows = &sample->rows;
     uint32_t dimension = rows->dimension;
     const float *place = &sample->state->position[(size_t)dimension * j];
-    uint32_t layer = dimension == 3 ? cell_at(rows, 2, place[2]) : 0;
-    uint32_t row = layer * rows->cells[1] + cell_at(rows, 1, place[1]);
+    uint32_t layer = dimension == 3 ? line_at(rows, 2, place[2]) : 0;
+    uint32_t row = row_of(rows, line_at(rows, 1, place[1]), layer);
     uint32_t next = sample->head[bucket_of(row)];
-    uint32_t column = next ? cell_at(rows, 0, place[0]) : 0;
+    uint32_t column = next ? weir_grid_fold(line_at(rows, 0, place[0]), rows->cells[0]) : 0;
     while (next) {
         const Visit *visit = &sample->visits[next - 1];
         next = visit->next;

@@ -50,16 +50,29 @@ static inline uint32_t weir_segments(int32_t low, int32_t high, uint32_t period,
     return count;
 }
 
-// Square of the distance from [low, high] to the cell row that holds coordinates from row << shift, in quanta; edge rows
-// reach to infinity, since coordinates outside the grid are clamped into them.
-static inline int64_t weir_row_distance2(int64_t low, int64_t high, uint32_t row, uint32_t shift,
-                                         uint32_t rows)
+// Square of the distance from [low, high] to the row of cells that starts at row << shift, in quanta; row 0 also holds
+// all below it.
+static inline int64_t weir_row_distance2(int64_t low, int64_t high, uint32_t row, uint32_t shift)
 {
     int64_t begin = (int64_t)row << shift, end = begin + ((int64_t)1 << shift);
     int64_t distance = 0;
-    if (row + 1 < rows && low > end) distance = low - end;
+    if (low > end) distance = low - end;
     if (row > 0 && begin > high) distance = begin - high;
     return distance * distance;
+}
+
+// `count` columns of a row from `first` on, as one run; two where the grid is folded between them.
+static inline void weir_add_columns(const uint32_t *start, uint32_t first, uint32_t count, uint32_t columns,
+                                    const int32_t shift[3], WeirLaneGroup *group)
+{
+    first = count < columns ? weir_grid_fold(first, columns) : 0;
+    if (count > columns) count = columns;
+    uint32_t whole = first + count <= columns ? count : columns - first;
+    const uint32_t ends[2][2] = {{start[first], start[first + whole]}, {start[0], start[count - whole]}};
+    for (int n = 0; n < 2; ++n) {
+        WeirRun run = {ends[n][0], ends[n][1], {shift[0], shift[1], shift[2]}};
+        if (run.begin < run.end && group->run_count < WEIR_MAX_RUNS) group->run[group->run_count++] = run;
+    }
 }
 
 // The runs of one row of cells; `chord2`: square of what is left of the support beyond the distance to the row.
@@ -71,10 +84,10 @@ static inline void weir_add_runs(const WeirConstants *constants, const uint32_t 
     uint32_t columns = weir_segments(group->bounds.low[0] - reach, group->bounds.high[0] + reach,
                                      constants->period_x, column);
     for (uint32_t n = 0; n < columns; ++n) {
-        uint32_t first = weir_grid_cell(column[n].low, constants->column_shift, constants->cell_columns);
-        uint32_t last = weir_grid_cell(column[n].high, constants->column_shift, constants->cell_columns);
-        WeirRun run = {start[first], start[last + 1], {column[n].shift, row_shift, layer_shift}};
-        if (run.begin < run.end && group->run_count < WEIR_MAX_RUNS) group->run[group->run_count++] = run;
+        uint32_t first = weir_grid_line(column[n].low, constants->column_shift);
+        uint32_t last = weir_grid_line(column[n].high, constants->column_shift);
+        const int32_t shift[3] = {column[n].shift, row_shift, layer_shift};
+        weir_add_columns(start, first, last - first + 1, constants->cell_columns, shift, group);
     }
 }
 
@@ -88,13 +101,14 @@ static inline void weir_add_layer(const WeirConstants *constants, const uint32_t
     uint32_t segments = weir_segments(low - support, high + support, constants->period_y, segment);
     for (uint32_t n = 0; n < segments; ++n) {
         int32_t shift = segment[n].shift;
-        uint32_t last = weir_grid_cell(segment[n].high, constants->row_shift, constants->cell_rows);
-        uint32_t row = weir_grid_cell(segment[n].low, constants->row_shift, constants->cell_rows);
+        uint32_t last = weir_grid_line(segment[n].high, constants->row_shift);
+        uint32_t row = weir_grid_line(segment[n].low, constants->row_shift);
         for (; row <= last; ++row) {
             int64_t chord2 = left2 - weir_row_distance2((int64_t)low - shift, (int64_t)high - shift, row,
-                                                        constants->row_shift, constants->cell_rows);
+                                                        constants->row_shift);
             if (chord2 <= 0) continue;
-            weir_add_runs(constants, layer_start + row * constants->cell_columns, (double)chord2, shift,
+            uint32_t folded = weir_grid_fold(row, constants->cell_rows);
+            weir_add_runs(constants, layer_start + folded * constants->cell_columns, (double)chord2, shift,
                           layer_shift, group);
         }
     }
@@ -114,14 +128,14 @@ static inline void weir_find_runs(const WeirConstants *constants, const uint32_t
     group->run_count = 0;
     for (uint32_t n = 0; n < segments; ++n) {
         int32_t shift = segment[n].shift;
-        uint32_t last = weir_grid_cell(segment[n].high, constants->row_shift, constants->cell_layers);
-        uint32_t layer = weir_grid_cell(segment[n].low, constants->row_shift, constants->cell_layers);
+        uint32_t last = weir_grid_line(segment[n].high, constants->row_shift);
+        uint32_t layer = weir_grid_line(segment[n].low, constants->row_shift);
         for (; layer <= last; ++layer) {
             int64_t left2 = support2 - weir_row_distance2((int64_t)low - shift, (int64_t)high - shift, layer,
-                                                          constants->row_shift, constants->cell_layers);
+                                                          constants->row_shift);
+            uint32_t first_row = weir_grid_fold(layer, constants->cell_layers) * constants->cell_rows;
             if (left2 > 0)
-                weir_add_layer(constants, cell_start + layer * constants->cell_rows * constants->cell_columns,
-                               left2, shift, group);
+                weir_add_layer(constants, cell_start + first_row * constants->cell_columns, left2, shift, group);
         }
     }
 }
@@ -142,7 +156,12 @@ static inline void weir_take_lanes(const WeirConstants *constants, const uint32_
     for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
     for (group->lanes = 1; group->lanes < most; ++group->lanes) {
         uint32_t i = begin + group->lanes;
-        if (x[0][i] - bounds->low[0] > widest) break;
+        bool is_near = true; // others share a row of a folded grid
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            int32_t way = x[axis][i] - x[axis][begin];
+            is_near = is_near && way <= widest && way >= -widest;
+        }
+        if (!is_near) break;
         for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
             if (x[axis][i] < bounds->low[axis]) bounds->low[axis] = x[axis][i];
             if (x[axis][i] > bounds->high[axis]) bounds->high[axis] = x[axis][i];
