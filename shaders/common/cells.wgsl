@@ -1,23 +1,32 @@
 // Coordinates in quanta, cells, and the runs of cells that hold a particle's neighbours (src/core/grid.h): one run per
 // row of cells, trimmed to the chord that the support cuts out of it. Where an axis is periodic, what lies beyond its
 // end is visited as an image, shifted by the period; the order is below, inside, above.
-fn axis_cell(coordinate: i32, shift: u32, count: u32) -> u32 {
-    return min(u32(max(coordinate, 0)) >> shift, count - 1u);
+// A line is a column, row or layer; where the domain has more than the grid, those that lie `count` apart share
+// their cells: far away particles may be candidates, but never neighbours.
+fn column_line(coordinate: i32) -> u32 {
+    return u32(max(coordinate, 0)) >> constants.column_shift;
 }
 
 // Of a row or layer.
-fn row_cell(coordinate: i32, count: u32) -> u32 {
-    return min(u32(max(coordinate, 0)) / ROW_HEIGHT, count - 1u);
+fn row_line(coordinate: i32) -> u32 {
+    return u32(max(coordinate, 0)) / ROW_HEIGHT;
+}
+
+fn folded(line: u32, count: u32) -> u32 {
+    if line < count {
+        return line;
+    }
+    return line % count;
 }
 
 fn grid_cell(place: Place) -> u32 {
     let coordinate = wide_place(place);
-    let column = axis_cell(coordinate.x, constants.column_shift, constants.cell_columns);
-    let row = row_cell(coordinate.y, constants.cell_rows);
+    let column = folded(column_line(coordinate.x), constants.cell_columns);
+    let row = folded(row_line(coordinate.y), constants.cell_rows);
     if DIMENSION == 2u {
         return row * constants.cell_columns + column;
     }
-    let layer = row_cell(coordinate.z, constants.cell_layers);
+    let layer = folded(row_line(coordinate.z), constants.cell_layers);
     return (layer * constants.cell_rows + row) * constants.cell_columns + column;
 }
 
@@ -33,21 +42,21 @@ struct Visits {
 fn visits_of(at: i32, reach: i32, count: u32, periodic: bool, period: u32) -> Visits {
     let low = at - reach;
     let high = at + reach;
-    let first = row_cell(low, count);
+    let first = row_line(low);
     if !periodic {
-        let inside = row_cell(high, count) + 1u - first;
+        let inside = min(row_line(high) + 1u - first, count);
         return Visits(0u, 0u, first, inside, inside);
     }
     let p = i32(period);
-    let last = row_cell(p - 1, count);
-    var visits = Visits(0u, 0u, first, row_cell(min(high, p - 1), count) + 1u - first, 0u);
+    let last = row_line(p - 1);
+    var visits = Visits(0u, 0u, first, row_line(min(high, p - 1)) + 1u - first, 0u);
     if low < 0 {
-        visits.below_first = row_cell(low + p, count);
+        visits.below_first = row_line(low + p);
         visits.below = last + 1u - visits.below_first;
     }
     visits.count = visits.below + visits.inside;
     if high >= p {
-        visits.count += row_cell(high - p, count) + 1u;
+        visits.count += row_line(high - p) + 1u;
     }
     return visits;
 }
@@ -63,12 +72,11 @@ fn visit(visits: Visits, k: u32) -> vec2i {
     return vec2i(i32(k - visits.below - visits.inside), 1);
 }
 
-// Distance along one axis from `at` to a row of cells, in quanta. Rows at the edge reach to infinity, because
-// coordinates outside the grid are clamped into them.
-fn row_distance(at: i32, row: i32, count: u32) -> f32 {
+// Distance along one axis from `at` to a row of cells, in quanta. Row 0 also holds all that lies below it.
+fn row_distance(at: i32, row: i32) -> f32 {
     let begin = row * i32(ROW_HEIGHT);
     let below = select(begin - at, 0, row == 0);
-    let above = select(at - begin - i32(ROW_HEIGHT - 1u), 0, row + 1 == i32(count));
+    let above = at - begin - i32(ROW_HEIGHT - 1u);
     return f32(max(max(below, above), 0));
 }
 
@@ -88,8 +96,8 @@ struct Walk {
     run_layer: u32,  // which of the layers it lies in
 }
 
-// Images along x: below, inside, above; only the inside if x is not periodic.
-const COLUMN_SEGMENTS = select(1u, 3u, PERIODIC_X);
+// Images along x: below, inside, above. Of a folded grid: up to its end, and on from its begin.
+const COLUMN_SEGMENTS = select(select(1u, 2u, FOLDED_X), 3u, PERIODIC_X);
 
 fn walk_around(place: Place, reach: i32) -> Walk {
     var walk: Walk;
@@ -114,10 +122,21 @@ fn set_columns(walk: ptr<function, Walk>, reach: i32, first_row_cell: u32) {
         high = min(high - image * p, p - 1);
         (*walk).place.x -= image * p;
     }
-    if low <= high || !PERIODIC_X {
-        (*walk).first_cell = first_row_cell + axis_cell(low, constants.column_shift, constants.cell_columns);
-        (*walk).end_cell = first_row_cell + axis_cell(high, constants.column_shift, constants.cell_columns) + 1u;
+    if low > high {
+        return;
     }
+    let columns = constants.cell_columns;
+    let count = min(column_line(high) + 1u - column_line(low), columns);
+    var first = folded(column_line(low), columns);
+    var end = first + count;
+    if FOLDED_X && end > columns {
+        first = select(first, 0u, (*walk).segment == 1u);
+        end = select(columns, end - columns, (*walk).segment == 1u);
+    } else if FOLDED_X && (*walk).segment == 1u {
+        return;
+    }
+    (*walk).first_cell = first_row_cell + first;
+    (*walk).end_cell = first_row_cell + min(end, columns);
 }
 
 // Goes to the next run; false if there is none.
@@ -128,14 +147,14 @@ fn next_run(walk: ptr<function, Walk>) -> bool {
     (*walk).run_layer = (*walk).layer;
     let reach = f32((*walk).reach);
     let row = visit((*walk).rows, (*walk).row);
-    var first_row_cell = u32(row.x) * constants.cell_columns;
+    var first_row_cell = folded(u32(row.x), constants.cell_rows) * constants.cell_columns;
     (*walk).place = (*walk).own;
     (*walk).place.y -= row.y * i32(constants.period_y);
-    let distance = row_distance((*walk).place.y, row.x, constants.cell_rows);
+    let distance = row_distance((*walk).place.y, row.x);
     var chord_squared = reach * reach - distance * distance;
     if DIMENSION == 3u {
         let layer = visit((*walk).layers, (*walk).layer);
-        first_row_cell += u32(layer.x) * constants.cell_rows * constants.cell_columns;
+        first_row_cell += folded(u32(layer.x), constants.cell_layers) * constants.cell_rows * constants.cell_columns;
         chord_squared -= deeper(walk, layer);
     }
     (*walk).first_cell = 0u;

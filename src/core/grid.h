@@ -63,3 +63,12 @@ static inline uint32_t weir_grid_cell(int32_t coordinate, uint32_t shift, uint32
 
 // Folded grids have at least so many columns, and rows and layers: more than any search spans.
 enum { WEIR_LEAST_COLUMNS = 64, WEIR_LEAST_ROWS = 8 };
+
+// Does the domain have more columns than the grid? (Folding takes a quarter of them at least.)
+static inline bool weir_grid_folds_columns(const WeirConstants *constants)
+{
+    float end = constants->domain_max[0] + 2.0f * constants->search_radius;
+    float extent = (end - constants->origin[0]) * constants->inverse_quantum;
+    float columns = extent / (float)(1u << constants->column_shift);
+    return constants->period_x == 0 && columns > 1.1f * (float)constants->cell_columns;
+}

@@ -1,4 +1,5 @@
 // The passes and buffers of `wcsph`.
+#include "core/grid.h"
 #include "gpu/wcsph.h"
 
 #include <stdio.h>
@@ -195,6 +196,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("PERIODIC_X", constants->period_x > 0);
     FLAG("PERIODIC_Y", constants->period_y > 0);
     FLAG("PERIODIC_Z", traits->dimension == 3 && constants->period_z > 0);
+    FLAG("FOLDED_X", weir_grid_folds_columns(constants));
     FLAG("HAS_SOLIDS", traits->solid_count > 0);
     FLAG("MOVING_SOLIDS", traits->moving_solids);
     FLAG("FREE_SOLIDS", traits->free_solids);

@@ -250,6 +250,22 @@ static void long_2d(WeirTestWorld *test)
     weir_test_world_solid(test, WEIR_SOLID_FIXED, (double[]){60, 0, 0}, (double[]){60.15, 0.6, 0}, NOWHERE);
 }
 
+// Strips along every axis, so far across that the grid is folded under them: their ends share cells with each other.
+static void folded_2d(WeirTestWorld *test)
+{
+    *test = start(2, 300, 250, 0);
+    weir_test_world_fluid(test, (double[]){20, 50, 0}, (double[]){60, 50.1, 0}, 0.1, 0.3);
+    weir_test_world_fluid(test, (double[]){100, 80, 0}, (double[]){100.1, 120, 0}, 0.1, 0.3);
+}
+
+static void folded_3d(WeirTestWorld *test)
+{
+    *test = start(3, 60, 50, 40);
+    weir_test_world_fluid(test, (double[]){20, 20, 20}, (double[]){30, 20.05, 20.1}, 0.1, 0.3);
+    weir_test_world_fluid(test, (double[]){5, 10, 20}, (double[]){5.05, 20, 20.1}, 0.1, 0.3);
+    weir_test_world_fluid(test, (double[]){30, 40, 15}, (double[]){30.1, 40.05, 25}, 0.1, 0.3);
+}
+
 static void open_2d(WeirTestWorld *test)
 {
     *test = start(2, 0.6, 0.6, 0);
@@ -264,7 +280,8 @@ const WeirTestCase weir_test_cases[] = {
     {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
     {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 40},         {"tap_2d", tap_2d, 100},
     {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},         {"long_2d", long_2d, 60},
-    {"border_2d", border_2d, 60},   {"throw_2d", throw_2d, 15},       {"throw_3d", throw_3d, 15},
+    {"folded_2d", folded_2d, 30},   {"folded_3d", folded_3d, 30},     {"border_2d", border_2d, 60},
+    {"throw_2d", throw_2d, 15},     {"throw_3d", throw_3d, 15},
 };
 const uint32_t weir_test_case_count = sizeof weir_test_cases / sizeof weir_test_cases[0];
 
