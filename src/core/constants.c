@@ -1,6 +1,7 @@
 // From parameters and scene to what the passes read.
 #include "core/grid.h"
 #include "core/kernel.h"
+#include "core/scene_shape.h"
 #include "core/smoothing.h"
 
 #include <math.h>
@@ -53,26 +54,38 @@ static void make_mueller(WeirConstants *constants, const WeirScene *scene, const
     weir_grid_make(constants, scene->domain_min, scene->domain_max);
 }
 
+// What a folded grid should hold along each axis, in quanta: the longest piece of fluid and a quarter of it.
+static void longest_pieces(const WeirScene *scene, double quantum, double length[3])
+{
+    length[0] = length[1] = length[2] = 0.0;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        double low[3], high[3];
+        weir_shape_bounds(&scene->fluid[n].shape, scene->dimension, low, high);
+        for (uint32_t axis = 0; axis < scene->dimension; ++axis)
+            length[axis] = fmax(length[axis], 1.25 * (high[axis] - low[axis]) / quantum);
+    }
+}
+
 // A grid of `lines` cells along each axis, all that the domain has, to at most `limit` cells: first folded where it is
-// longest (grid.h), then with larger cells. `shift`: sizes of a cell, in powers of two quanta.
-static void fit_grid(const WeirConstants *constants, const double extent[3], double limit, uint32_t shift[3],
+// longest, but to no less than `least` quanta (grid.h), then with larger cells. `shift`: sizes of a cell, in powers of
+// two quanta.
+static void fit_grid(const double extent[3], const double least[3], double limit, uint32_t shift[3],
                      double lines[3])
 {
-    static const double least[3] = {WEIR_LEAST_COLUMNS, WEIR_LEAST_ROWS, WEIR_LEAST_ROWS};
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    static const double fewest[3] = {WEIR_LEAST_COLUMNS, WEIR_LEAST_ROWS, WEIR_LEAST_ROWS};
     bool grown = true;
     for (;;) {
-        for (int axis = 0; axis < 3 && grown; ++axis)
-            lines[axis] = floor(extent[axis] / (double)(1u << shift[axis])) + 1.0;
-        if (lines[0] * lines[1] * lines[2] <= limit) return;
         int longest = -1;
         double length = 0.0;
         for (int axis = 0; axis < 3; ++axis) {
-            double own = lines[axis] * (double)(1u << shift[axis]);
-            if (periods[axis] || 0.75 * lines[axis] < least[axis] || own <= length) continue;
+            double cell = (double)(1u << shift[axis]);
+            if (grown) lines[axis] = floor(extent[axis] / cell) + 1.0;
+            double less = 0.75 * lines[axis], own = lines[axis] * cell;
+            if (less < fewest[axis] || less * cell < least[axis] || own <= length) continue;
             longest = axis;
             length = own;
         }
+        if (lines[0] * lines[1] * lines[2] <= limit) return;
         grown = longest < 0;
         if (!grown) {
             lines[longest] = floor(0.75 * lines[longest]);
@@ -107,9 +120,13 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
         *periods[axis] = scene->periodic[axis] ? (uint32_t)floor(period / quantum + 0.5) : 0;
         extent[axis] /= quantum;
     }
+    double least[3];
+    longest_pieces(scene, quantum, least);
+    for (int axis = 0; axis < 3; ++axis)
+        if (scene->periodic[axis]) least[axis] = INFINITY;
     uint32_t shift[3] = {bits - 3, bits, bits};
     double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0);
-    fit_grid(constants, extent, limit, shift, lines);
+    fit_grid(extent, least, limit, shift, lines);
     constants->cell_columns = (uint32_t)lines[0];
     constants->cell_rows = (uint32_t)lines[1];
     constants->cell_layers = (uint32_t)lines[2];

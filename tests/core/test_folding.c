@@ -53,8 +53,8 @@ static WeirSim *meeting_strips(uint32_t dimension, double room)
     add_strip(scene, (double[3]){length, 0, 0}, (double[3]){2.0 * length, 0.2, 0.1}, -0.2);
     for (int n = 1; room > 0.0 && n <= 5; ++n) {
         double x = 7.3 * n, y = 0.17 * room * (n - 3.5), z = -0.15 * room * (n - 2.6);
-        add_strip(scene, (double[3]){x, y, z}, (double[3]){x + 6, y + 0.1, z + 0.1}, 0.2);
-        add_strip(scene, (double[3]){x, y + 1, z + 1}, (double[3]){x + 0.1, y + 4, z + 1.1}, -0.2);
+        add_strip(scene, (double[3]){x, y, z}, (double[3]){x + 3, y + 0.1, z + 0.1}, 0.2);
+        add_strip(scene, (double[3]){x, y + 1, z + 1}, (double[3]){x + 0.1, y + 2, z + 1.1}, -0.2);
     }
     WeirSim *sim = weir_test_sim(scene, weir_cpu_backend(), 2);
     weir_scene_destroy(scene);
