@@ -61,18 +61,27 @@ static inline int64_t weir_row_distance2(int64_t low, int64_t high, uint32_t row
     return distance * distance;
 }
 
-// `count` columns of a row from `first` on, as one run; two where the grid is folded between them.
+static inline void weir_add_run(const uint32_t *start, uint32_t first, uint32_t end, const int32_t shift[3],
+                                WeirLaneGroup *group)
+{
+    WeirRun run = {start[first], start[end], {shift[0], shift[1], shift[2]}};
+    if (run.begin < run.end && group->run_count < WEIR_MAX_RUNS) group->run[group->run_count++] = run;
+}
+
+// `count` columns of a row from `first` on: one run; two where the grid is folded between them.
 static inline void weir_add_columns(const uint32_t *start, uint32_t first, uint32_t count, uint32_t columns,
                                     const int32_t shift[3], WeirLaneGroup *group)
 {
-    first = count < columns ? weir_grid_fold(first, columns) : 0;
-    if (count > columns) count = columns;
-    uint32_t whole = first + count <= columns ? count : columns - first;
-    const uint32_t ends[2][2] = {{start[first], start[first + whole]}, {start[0], start[count - whole]}};
-    for (int n = 0; n < 2; ++n) {
-        WeirRun run = {ends[n][0], ends[n][1], {shift[0], shift[1], shift[2]}};
-        if (run.begin < run.end && group->run_count < WEIR_MAX_RUNS) group->run[group->run_count++] = run;
+    if (first + count > columns) {
+        first = count < columns ? first % columns : 0;
+        if (count > columns) count = columns;
+        if (first + count > columns) {
+            weir_add_run(start, first, columns, shift, group);
+            count -= columns - first;
+            first = 0;
+        }
     }
+    weir_add_run(start, first, first + count, shift, group);
 }
 
 // The runs of one row of cells; `chord2`: square of what is left of the support beyond the distance to the row.
@@ -135,9 +144,35 @@ static inline void weir_find_runs(const WeirConstants *constants, const uint32_t
                                                           constants->row_shift);
             uint32_t first_row = weir_grid_fold(layer, constants->cell_layers) * constants->cell_rows;
             if (left2 > 0)
-                weir_add_layer(constants, cell_start + first_row * constants->cell_columns, left2, shift, group);
+                weir_add_layer(constants, cell_start + first_row * constants->cell_columns, left2, shift,
+                               group);
         }
     }
+}
+
+// Takes up to `most` particles from `begin` on into the group. False if they lie too far apart for one set of runs: in a
+// folded grid others share their row. `careful`: ends before the first such one instead.
+static inline bool weir_gather_lanes(const WeirConstants *constants, const int32_t *const x[3],
+                                     uint32_t begin, uint32_t most, bool careful, WeirLaneGroup *group)
+{
+    int32_t widest = (int32_t)(1u << constants->coordinate_bits) * 3;
+    WeirBounds *bounds = &group->bounds;
+    for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
+    for (group->lanes = 1; group->lanes < most; ++group->lanes) {
+        uint32_t i = begin + group->lanes;
+        if (x[0][i] - bounds->low[0] > widest) break;
+        for (uint32_t axis = 0; careful && axis < constants->dimension; ++axis) {
+            int32_t way = x[axis][i] - x[axis][begin];
+            if (way > widest || way < -widest) return true;
+        }
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            if (x[axis][i] < bounds->low[axis]) bounds->low[axis] = x[axis][i];
+            if (x[axis][i] > bounds->high[axis]) bounds->high[axis] = x[axis][i];
+        }
+    }
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        if (bounds->high[axis] - bounds->low[axis] > 2 * widest) return false;
+    return true;
 }
 
 // Takes particles from `begin` on, as long as they share a row of cells and lie close enough that one set of runs serves
@@ -146,25 +181,11 @@ static inline void weir_take_lanes(const WeirConstants *constants, const uint32_
                                    const int32_t *const x[3], uint32_t begin, uint32_t end,
                                    WeirLaneGroup *group)
 {
-    int32_t widest = (int32_t)(1u << constants->coordinate_bits) * 3;
     uint32_t row = weir_grid_cell(x[1][begin], constants->row_shift, constants->cell_rows);
     uint32_t layer = weir_grid_cell(x[2][begin], constants->row_shift, constants->cell_layers);
     uint32_t row_end = cell_start[(layer * constants->cell_rows + row + 1) * constants->cell_columns];
     uint32_t most = (end < row_end ? end : row_end) - begin;
     if (most > WEIR_LANES) most = WEIR_LANES;
-    WeirBounds *bounds = &group->bounds;
-    for (int axis = 0; axis < 3; ++axis) bounds->low[axis] = bounds->high[axis] = x[axis][begin];
-    for (group->lanes = 1; group->lanes < most; ++group->lanes) {
-        uint32_t i = begin + group->lanes;
-        bool is_near = true; // others share a row of a folded grid
-        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            int32_t way = x[axis][i] - x[axis][begin];
-            is_near = is_near && way <= widest && way >= -widest;
-        }
-        if (!is_near) break;
-        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            if (x[axis][i] < bounds->low[axis]) bounds->low[axis] = x[axis][i];
-            if (x[axis][i] > bounds->high[axis]) bounds->high[axis] = x[axis][i];
-        }
-    }
+    if (!weir_gather_lanes(constants, x, begin, most, false, group))
+        weir_gather_lanes(constants, x, begin, most, true, group);
 }
