@@ -229,9 +229,11 @@ fn body_forces(at: Vector, velocity: Vector) -> Vector {
 // Particle shifting (Sun et al. 2017) of a particle inside the fluid, and in w what it does to the density (2019):
 // drho/dt / rho.
 fn shift_of(sums: Sums) -> vec4f {
-    let most = 0.25 * control.max_speed;
+    // One particle that flies faster than the method is valid for must not shake all the others.
+    let flow_speed = min(control.max_speed, 0.1 * constants.sound_speed);
+    let most = 0.25 * flow_speed;
     let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
-    let factor = -parameters.shifting * 4.0 * constants.smoothing_length * control.max_speed
+    let factor = -parameters.shifting * 4.0 * constants.smoothing_length * flow_speed
         * gradient;
     let u = factor * (sums.gradient + 0.2 * sums.clustering);
     let speed = length(u);

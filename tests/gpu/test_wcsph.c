@@ -88,7 +88,7 @@ static void compare(const char *where, const WeirTestWorld *test, WeirSolver *on
     assert_int_equal(a.count, b.count);
     assert_int_equal(a.dimension, b.dimension);
     assert_int_equal(a.step, b.step);
-    CHECK_NEAR(a.time, b.time, 1e-6 * b.time + 1e-12);
+    CHECK_NEAR(a.time, b.time, 1e-5 * b.time + 1e-12); // steps follow the speed, which follows to 1e-3
     assert_memory_equal(a.group, b.group, a.count * sizeof *a.group);
     size_t count = a.count, values = count * a.dimension;
     double speed = fmax(largest(b.velocity, values), 0.1);
@@ -109,7 +109,7 @@ static void compare_health(WeirSolver *on_gpu, WeirSolver *on_cpu)
     assert_true(a.has_clock);
     assert_int_equal(a.bad_particles, 0);
     assert_int_equal(a.steps, b.steps);
-    CHECK_NEAR(a.time, b.time, 1e-6 * b.time + 1e-12);
+    CHECK_NEAR(a.time, b.time, 1e-5 * b.time + 1e-12); // steps follow the speed, which follows to 1e-3
     CHECK_NEAR(a.time_step, b.time_step, 1e-3 * b.time_step);
     CHECK_NEAR(a.max_speed, b.max_speed, 1e-3 * b.max_speed);
     CHECK_NEAR(a.max_density_error, b.max_density_error, 1e-5);

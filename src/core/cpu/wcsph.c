@@ -135,7 +135,8 @@ static void point_to_sorted(WeirWcsph *solver)
     data->parameters = &solver->parameters;
     data->constants = &solver->constants;
     data->cell_start = solver->cells.cell_start;
-    data->max_speed = solver->clock.max_speed;
+    // One particle that flies faster than the method is valid for must not shake all the others.
+    data->flow_speed = fminf(solver->clock.max_speed, 0.1f * solver->constants.sound_speed);
     for (int axis = 0; axis < 3; ++axis) {
         data->x[axis] = solver->sorted.x[axis];
         data->velocity[axis] = solver->sorted.velocity[axis];

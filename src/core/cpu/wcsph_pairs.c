@@ -424,9 +424,9 @@ INLINE Vector shift_of(const WeirWcsphData *data, const ForceSums *sums, WeirMas
                        Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    const WeirLanes most = weir_lanes_fill(0.25f * data->max_speed), zero = {0};
+    const WeirLanes most = weir_lanes_fill(0.25f * data->flow_speed), zero = {0};
     float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
-    float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->max_speed *
+    float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->flow_speed *
                    constants->particle_mass * constants->gradient_factor * constants->quantum;
     const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
     Vector shift = {{0}, {0}, {0}};

@@ -11,7 +11,7 @@ typedef struct WeirWcsphData {
     const WeirParameters *parameters;
     const WeirConstants *constants;
     const uint32_t *cell_start;
-    float max_speed;          // m/s, of the fluid in the last step: scales the shifting
+    float flow_speed;         // m/s, the fluid's largest, c0 / 10 at most
     const int32_t *x[3];      // coordinates, quanta
     const float *velocity[3]; // m/s, at the start of the step
     float *is_fluid;          // 1 fluid, 0 solid
