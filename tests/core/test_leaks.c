@@ -7,6 +7,11 @@
 #include "core/scene_shape.h"
 
 static const double sound = 20, machs[] = {0.3, 1};
+#ifdef NDEBUG
+enum { THROWS = 20, OBSTACLES = 15 };
+#else
+enum { THROWS = 4, OBSTACLES = 3 }; // sanitizers are twenty times slower, and look for other faults
+#endif
 
 // Fluid around (x, 0, 0).
 static WeirScene *ball(uint32_t dimension, double spacing, double radius, double x)
@@ -56,7 +61,7 @@ static void polygons_hold(void **state)
 {
     (void)state;
     WeirRandom random = {.state = 21};
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < THROWS; ++round) {
         WeirScene *scene = ball(2, 0.04, 0.25, 0);
         weir_test_random_polygon(scene, "walls", &random);
         double angle = weir_random_range(&random, 0, 6.28);
@@ -69,7 +74,7 @@ static void meshes_hold(void **state)
 {
     (void)state;
     WeirRandom random = {.state = 22};
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < THROWS; ++round) {
         WeirScene *scene = ball(3, 0.08, 0.25, 0);
         weir_test_random_mesh(scene, "walls", &random);
         double angle = weir_random_range(&random, 0, 6.28);
@@ -83,7 +88,7 @@ static void obstacles_hold(void **state)
 {
     (void)state;
     WeirRandom random = {.state = 23};
-    for (int round = 0; round < 15; ++round) {
+    for (int round = 0; round < OBSTACLES; ++round) {
         bool deep = round % 3 == 2;
         WeirScene *scene = ball(deep ? 3 : 2, deep ? 0.08 : 0.04, 0.25, deep ? 1.05 : 1.5);
         (deep ? weir_test_random_mesh : weir_test_random_polygon)(scene, "walls", &random);
