@@ -8,6 +8,8 @@
 static const double least_allowance = 0.03, most_allowance = 0.08, walk_allowance = 0.02;
 // Neighbours that a list has room for, in those of the lattice: fluid may be squeezed, and disordered.
 static const double list_margin = 1.25;
+// Longer lists cannot be meant: 8 entries each.
+static const double most_chunks = 4096.0;
 // In 2D lists only pay while they fit the device's cache.
 static const double most_pairs_of_lists_2d = 1e7;
 // Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
@@ -35,7 +37,9 @@ static uint32_t chunks_of_lists(const WeirParameters *parameters, const WeirCons
 {
     double reach = 1.0 + 2.0 * most_allowance;
     double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
-    uint32_t chunks = (uint32_t)ceil(list_margin * neighbors / 8.0) + 1;
+    double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
+    if (!(wanted <= most_chunks)) return 0; // what is not a number too
+    uint32_t chunks = (uint32_t)wanted;
     uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
     bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d;
     bool fits = 16 * 128 * blocks * (chunks + 1) <= most_bytes;
