@@ -41,7 +41,7 @@ fn quanta_of(way: Vector) -> Place {
     return select(Place(0), Place(steps), abs(steps) < Vector(1e9));
 }
 
-// A difference of two places, to the nearest image.
+// A difference of two places, less than a period, to the nearest image.
 fn nearest(way: Place) -> Place {
     var near = way;
     if PERIODIC_X {
@@ -79,25 +79,10 @@ fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
     return shortest(coordinate_of(away) - place);
 }
 
-// A way in quanta; across a periodic border the short one.
+// A way in quanta of any length; across a periodic border the short one.
 fn shortest(way: Place) -> Place {
-    var short = way;
-    if PERIODIC_X {
-        short.x = short_way(way.x, constants.period_x);
-    }
-    if PERIODIC_Y {
-        short.y = short_way(way.y, constants.period_y);
-    }
-    if PERIODIC_Z {
-        short = short_way_z(short);
-    }
-    return short;
-}
-
-fn short_way(way: i32, period: u32) -> i32 {
-    let p = i32(period);
-    let rest = way % p;
-    return select(select(rest, rest - p, 2 * rest > p), rest + p, 2 * rest < -p);
+    let period = periods();
+    return nearest(select(way, way % max(period, Place(1)), period > Place(0)));
 }
 
 // m. Places are wrapped when they are sorted, and may lie a little outside until then.

@@ -29,8 +29,9 @@ fn wrap_z(to: Place) -> Place {
     return to;
 }
 
-fn short_way_z(way: Place) -> Place {
-    return way;
+// 0 along axes that are not periodic.
+fn periods() -> Place {
+    return Place(vec2u(constants.period_x, constants.period_y));
 }
 
 fn nearest_z(way: Place) -> Place {

@@ -31,8 +31,9 @@ fn wrap_z(to: Place) -> Place {
     return vec3i(to.xy, wrap(to.z, constants.period_z));
 }
 
-fn short_way_z(way: Place) -> Place {
-    return vec3i(way.xy, short_way(way.z, constants.period_z));
+// 0 along axes that are not periodic.
+fn periods() -> Place {
+    return Place(vec3u(constants.period_x, constants.period_y, constants.period_z));
 }
 
 fn nearest_z(way: Place) -> Place {
