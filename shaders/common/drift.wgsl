@@ -34,10 +34,21 @@ fn is_outside(at: Vector) -> bool {
     return false;
 }
 
+fn is_in_drain(at: Vector, n: u32) -> bool {
+    return all(at >= vector_of(drains[n].low)) && all(at <= vector_of(drains[n].high));
+}
+
+// Most fluid is in no group's box.
 fn is_drained(at: Vector) -> bool {
-    for (var n = 0u; n < DRAIN_COUNT; n++) {
-        if all(at >= vector_of(flows.drains[n].low)) && all(at <= vector_of(flows.drains[n].high)) {
-            return true;
+    for (var group = 0u; group < DRAIN_GROUPS; group++) {
+        if !is_in_drain(at, group) {
+            continue;
+        }
+        let first = DRAIN_GROUPS + group * DRAIN_GROUP;
+        for (var n = first; n < min(first + DRAIN_GROUP, DRAINS); n++) {
+            if is_in_drain(at, n) {
+                return true;
+            }
         }
     }
     return false;
@@ -45,8 +56,8 @@ fn is_drained(at: Vector) -> bool {
 
 // An inlet's particle becomes free where it has passed the nozzle.
 fn has_passed(at: Vector, group: u32) -> bool {
-    let n = min(group - GROUP_INLET, 15u);
-    return dot(at - vector_of(flows.emitters[n].center), vector_of(flows.emitters[n].direction)) >= 0.0;
+    let n = min(group - GROUP_INLET, EMITTERS - 1u);
+    return dot(at - vector_of(emitters[n].center), vector_of(emitters[n].direction)) >= 0.0;
 }
 
 fn drifted(coordinate: vec4i, velocity: Vector, half: f32) -> Drifted {

@@ -3,17 +3,7 @@ fn middle_of_step() -> vec2u {
     return add_ticks(control.time, ticks_of(control.drift_half));
 }
 
-fn layer_due(n: u32) -> bool {
-    let time = middle_of_step();
-    let moves = control.drift_half > 0.0 && control.bad_step == 0xffffffffu;
-    return moves && !is_before(time, control.due[n].xy) && !is_before(control.due[n].zw, time);
-}
-
 fn any_layer_due() -> bool {
-    for (var n = 0u; n < EMITTER_COUNT; n++) {
-        if layer_due(n) {
-            return true;
-        }
-    }
-    return false;
+    let moves = control.drift_half > 0.0 && control.bad_step == 0xffffffffu;
+    return EMITTER_COUNT > 0u && moves && !is_before(middle_of_step(), control.next_due);
 }

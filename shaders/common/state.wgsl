@@ -50,9 +50,7 @@ struct Control {
     sorted_at: u32,         // way when the particles were sorted
     allowance: u32,         // way after which lists made then may miss neighbours
     next_allowance: u32,
-    unused_x: u32,
-    unused_y: u32,
-    due: array<vec4u, 16>,  // by emitter: when its next layer is due, xy, and when it stops, zw
+    next_due: vec2u,        // time at which emitters may have a layer next
 }
 
 // The same for passes in which all particles write at once.
@@ -90,9 +88,7 @@ struct SharedControl {
     sorted_at: u32,
     allowance: u32,
     next_allowance: u32,
-    unused_x: u32,
-    unused_y: u32,
-    due: array<vec4u, 16>,
+    next_due: vec2u,
 }
 
 // WeirSolid: what of a wall or body stays.
@@ -133,7 +129,7 @@ const NOW = 0u;
 const NEW = SOLID_COUNT;
 const SAVED = 2u * SOLID_COUNT;
 
-// WeirEmitter and WeirDrain.
+// WeirEmitter and WeirDrain. Before the drains stand the boxes around groups of them.
 struct Emitter {
     point_first: u32,
     point_count: u32,
@@ -150,13 +146,10 @@ struct Drain {
     low: vec4f,
     high: vec4f,
 }
-struct Flows {
-    emitters: array<Emitter, 16>,
-    drains: array<Drain, 16>,
-}
 
 @group(0) @binding(BINDING_solid_table) var<uniform> solid_table: array<Solid, SOLID_COUNT>;
-@group(0) @binding(BINDING_flows) var<uniform> flows: Flows;
+@group(0) @binding(BINDING_emitters) var<uniform> emitters: array<Emitter, EMITTERS>;
+@group(0) @binding(BINDING_drains) var<uniform> drains: array<Drain, DRAINS>;
 
 // v turned by the unit quaternion q.
 fn rotate(q: vec4f, v: vec3f) -> vec3f {

@@ -8,8 +8,8 @@ enum {
     WEIR_MAX_FLUIDS = 64,
     WEIR_MAX_WALLS = 64,
     WEIR_MAX_BODIES = 64,
-    WEIR_MAX_EMITTERS = 16,
-    WEIR_MAX_DRAINS = 16,
+    WEIR_MAX_EMITTERS = 1024, // a uniform buffer on the GPU holds so many
+    WEIR_MAX_DRAINS = 1024,
     WEIR_MAX_PROBES = 32,
     WEIR_TITLE_LENGTH = 120,
     WEIR_NAME_LENGTH = 32,

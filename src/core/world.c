@@ -62,7 +62,7 @@ static bool start_surfaces(WeirBuild *build)
     return ready;
 }
 
-static void end_surfaces(WeirBuild *build)
+static void end_build(WeirBuild *build)
 {
     for (uint32_t n = 0; build->walls && n < build->scene->wall_count; ++n)
         weir_surface_end(&build->walls[n]);
@@ -70,13 +70,14 @@ static void end_surfaces(WeirBuild *build)
         weir_surface_end(&build->bodies[n]);
     free(build->walls);
     free(build->bodies);
+    free(build->inlets);
 }
 
 static WeirStatus make_points(WeirBuild *build)
 {
     WeirStatus status = weir_build_fluid(build);
     if (status || build->scene->method != WEIR_METHOD_WCSPH) return status;
-    if (!start_surfaces(build)) return no_memory(build->scene, 0.0);
+    if (!start_surfaces(build) || !weir_build_inlets(build)) return no_memory(build->scene, 0.0);
     status = weir_build_solids(build);
     if (!status) status = weir_build_trim_fluid(build);
     if (!status) status = weir_build_emitters(build);
@@ -163,7 +164,7 @@ WeirStatus weir_scene_make_world(WeirScene *scene, WeirWorld *world)
         .world = world,
     };
     WeirStatus status = make_world(&build);
-    end_surfaces(&build);
+    end_build(&build);
     weir_points_free(&build.fluid);
     weir_points_free(&build.solid);
     if (status) {
@@ -172,6 +173,35 @@ WeirStatus weir_scene_make_world(WeirScene *scene, WeirWorld *world)
         weir_scene_advise(scene);
     }
     return status;
+}
+
+// Along x, then y, then z.
+static int by_place(const void *a, const void *b)
+{
+    const WeirDrain *x = a, *y = b;
+    for (int axis = 0; axis < 3; ++axis)
+        if (x->min[axis] != y->min[axis]) return x->min[axis] < y->min[axis] ? -1 : 1;
+    return 0;
+}
+
+bool weir_world_group_drains(WeirWorld *world)
+{
+    uint32_t count = (world->drain_count + WEIR_DRAIN_GROUP - 1) / WEIR_DRAIN_GROUP;
+    if (count == 0) return true;
+    world->drain_groups = calloc(count, sizeof *world->drain_groups);
+    if (!world->drain_groups) return false;
+    world->drain_group_count = count;
+    qsort(world->drains, world->drain_count, sizeof *world->drains, by_place);
+    for (uint32_t n = 0; n < world->drain_count; ++n) {
+        const WeirDrain *drain = &world->drains[n];
+        WeirDrain *group = &world->drain_groups[n / WEIR_DRAIN_GROUP];
+        if (n % WEIR_DRAIN_GROUP == 0) *group = *drain;
+        for (int axis = 0; axis < 3; ++axis) {
+            group->min[axis] = fminf(group->min[axis], drain->min[axis]);
+            group->max[axis] = fmaxf(group->max[axis], drain->max[axis]);
+        }
+    }
+    return true;
 }
 
 void weir_world_free(WeirWorld *world)
@@ -185,6 +215,7 @@ void weir_world_free(WeirWorld *world)
     free(world->emitters);
     free(world->points);
     free(world->drains);
+    free(world->drain_groups);
     *world = (WeirWorld){0};
 }
 

@@ -99,7 +99,14 @@ typedef struct WeirWorld {
     WeirEmitter *emitters;
     double *points; // of all emitters' nozzles, dimension per point, m
     WeirDrain *drains;
-    uint32_t solid_count, motion_count, emitter_count, point_count, drain_count;
+    WeirDrain *drain_groups; // boxes around WEIR_DRAIN_GROUP drains each; weir_world_group_drains()
+    uint32_t solid_count, motion_count, emitter_count, point_count, drain_count, drain_group_count;
 } WeirWorld;
+
+// Drains of a group: what lies in none of the groups' boxes is in no drain.
+enum { WEIR_DRAIN_GROUP = 32 };
+// Puts drains that are near each other side by side, and makes the boxes of their groups, for the solvers. False if
+// memory runs out.
+bool weir_world_group_drains(WeirWorld *world);
 
 void weir_world_free(WeirWorld *world);

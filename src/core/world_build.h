@@ -24,8 +24,11 @@ typedef struct WeirBuild {
     WeirPoints fluid;                    // by piece
     uint64_t first[WEIR_MAX_FLUIDS + 1]; // of a piece's points; the last: their number
     uint32_t empty;                      // slots for emitters
-    WeirPoints solid;                    // of all solids, one after the other
-    struct WeirSurface *walls, *bodies;  // their shapes, ready
+    struct WeirInlet *inlets;            // of the emitters that always run
+    uint32_t inlet_count;
+    double inlet_min[3], inlet_max[3];  // a box around all of them
+    WeirPoints solid;                   // of all solids, one after the other
+    struct WeirSurface *walls, *bodies; // their shapes, ready
     WeirWorld *world;
 } WeirBuild;
 
@@ -54,6 +57,8 @@ double weir_solids_count(const WeirScene *scene, double spacing, uint32_t layers
 WeirStatus weir_build_motions(WeirBuild *build);
 // Largest speed of a wall or body as prescribed or at the start, m/s.
 double weir_solid_speed(const WeirSolidPiece *piece, uint32_t dimension);
+// Fills build->inlets; false if memory runs out.
+bool weir_build_inlets(WeirBuild *build);
 // Is this where an emitter that always runs makes its layers? No wall can be there.
 bool weir_is_in_inlet(const WeirBuild *build, const double *point);
 // Nozzles, drains and the slots for emitters.

@@ -55,21 +55,62 @@ static double speed_of(const WeirBuild *build, const WeirEmitterPiece *piece, ui
     return piece->flow_rate / area;
 }
 
+// ---- Inlets ----
+
+// Where an emitter that always runs makes its layers: upstream of its nozzle.
+typedef struct WeirInlet {
+    double center[3], direction[3];
+    double half; // of its width, and a little more, m
+} WeirInlet;
+
+static double inlet_reach(const WeirBuild *build)
+{
+    return (double)build->parameters.support_radius + build->spacing;
+}
+
+static void add_inlet(WeirBuild *build, const WeirEmitterPiece *piece)
+{
+    WeirInlet *inlet = &build->inlets[build->inlet_count];
+    direction_of(piece, inlet->direction);
+    inlet->half = (0.5 * sites_across(piece, build->spacing) + 0.3) * build->spacing;
+    double around = inlet->half + inlet_reach(build);
+    for (uint32_t axis = 0; axis < build->dimension; ++axis) {
+        inlet->center[axis] = piece->center[axis];
+        double low = piece->center[axis] - around, high = piece->center[axis] + around;
+        bool first = build->inlet_count == 0;
+        build->inlet_min[axis] = first ? low : fmin(build->inlet_min[axis], low);
+        build->inlet_max[axis] = first ? high : fmax(build->inlet_max[axis], high);
+    }
+    ++build->inlet_count;
+}
+
+bool weir_build_inlets(WeirBuild *build)
+{
+    const WeirScene *scene = build->scene;
+    build->inlets = calloc(scene->emitter_count + 1, sizeof *build->inlets);
+    if (!build->inlets) return false;
+    for (uint32_t n = 0; n < scene->emitter_count; ++n) {
+        const WeirEmitterPiece *piece = &scene->emitter[n];
+        if (piece->start > 0.0 || piece->stop > 0.0) continue; // closed at times: the wall must hold
+        add_inlet(build, piece);
+    }
+    return true;
+}
+
 bool weir_is_in_inlet(const WeirBuild *build, const double *point)
 {
-    for (uint32_t n = 0; n < build->scene->emitter_count; ++n) {
-        const WeirEmitterPiece *piece = &build->scene->emitter[n];
-        if (piece->start > 0.0 || piece->stop > 0.0) continue; // closed at times: the wall must hold
-        double direction[3], along = 0.0, square = 0.0;
-        direction_of(piece, direction);
+    for (uint32_t axis = 0; axis < build->dimension; ++axis)
+        if (point[axis] < build->inlet_min[axis] || point[axis] > build->inlet_max[axis]) return false;
+    for (uint32_t n = 0; n < build->inlet_count; ++n) {
+        const WeirInlet *inlet = &build->inlets[n];
+        double along = 0.0, square = 0.0;
         for (uint32_t axis = 0; axis < build->dimension; ++axis) {
-            double d = point[axis] - piece->center[axis];
-            along += d * direction[axis];
+            double d = point[axis] - inlet->center[axis];
+            along += d * inlet->direction[axis];
             square += d * d;
         }
-        double half = (0.5 * sites_across(piece, build->spacing) + 0.3) * build->spacing;
-        double reach = (double)build->parameters.support_radius + build->spacing;
-        if (along < 0.25 * build->spacing && along > -reach && square - along * along < half * half)
+        if (along < 0.25 * build->spacing && along > -inlet_reach(build) &&
+            square - along * along < inlet->half * inlet->half)
             return true;
     }
     return false;
@@ -122,6 +163,12 @@ static WeirStatus check_jet(WeirBuild *build, uint32_t n, const double *nozzle)
 
 // ---- Slots ----
 
+// What the emitters ask for: as given, or chosen.
+typedef struct Slots {
+    double given, chosen;
+    double inside; // on their way through the nozzles whose slots are chosen
+} Slots;
+
 // Sites of the whole domain, less the fluid there is.
 static double free_sites(const WeirBuild *build)
 {
@@ -131,16 +178,27 @@ static double free_sites(const WeirBuild *build)
     return fmax(sites - (double)build->fluid.count, 0.0);
 }
 
-static double slots_of(const WeirBuild *build, const WeirEmitterPiece *piece, const WeirEmitter *emitter)
+static void add_slots(const WeirBuild *build, const WeirEmitterPiece *piece, const WeirEmitter *emitter,
+                      Slots *slots)
 {
-    if (piece->capacity > 0) return piece->capacity;
+    if (piece->capacity > 0) {
+        slots->given += piece->capacity;
+        return;
+    }
     double open = piece->stop > 0.0 ? piece->stop - piece->start : plausible_time;
     double layers = ceil(emitter->speed * open / build->spacing) + 1.0;
-    double inside = build->layers + 1.0; // on their way through the nozzle
-    return fmin(layers * emitter->point_count, free_sites(build) + inside * emitter->point_count);
+    slots->chosen += layers * emitter->point_count;
+    slots->inside += (build->layers + 1.0) * emitter->point_count;
 }
 
-static WeirStatus make_emitter(WeirBuild *build, uint32_t n, WeirPoints *points, double *slots)
+// The domain cannot hold more than its sites, however many emitters there are.
+static uint32_t slot_count(const WeirBuild *build, const Slots *slots)
+{
+    double chosen = fmin(slots->chosen, free_sites(build) + slots->inside);
+    return (uint32_t)fmin(ceil(slots->given + chosen), MOST_SLOTS);
+}
+
+static WeirStatus make_emitter(WeirBuild *build, uint32_t n, WeirPoints *points, Slots *slots)
 {
     const WeirEmitterPiece *piece = &build->scene->emitter[n];
     WeirEmitter *emitter = &build->world->emitters[n];
@@ -157,7 +215,7 @@ static WeirStatus make_emitter(WeirBuild *build, uint32_t n, WeirPoints *points,
         emitter->direction[axis] = (float)direction[axis];
         emitter->center[axis] = (float)piece->center[axis];
     }
-    *slots += slots_of(build, piece, emitter);
+    add_slots(build, piece, emitter, slots);
     for (uint64_t i = emitter->point_first; i < points->count; ++i) {
         WeirStatus status = check_jet(build, n, &points->data[i * build->dimension]);
         if (status) return status;
@@ -170,7 +228,7 @@ WeirStatus weir_build_emitters(WeirBuild *build)
     WeirScene *scene = build->scene;
     WeirWorld *world = build->world;
     WeirPoints points = {.dimension = build->dimension};
-    double slots = 0.0;
+    Slots slots = {0};
     world->emitters = calloc(WEIR_MAX_EMITTERS, sizeof *world->emitters);
     world->drains = calloc(WEIR_MAX_DRAINS, sizeof *world->drains);
     if (!world->emitters || !world->drains)
@@ -183,7 +241,7 @@ WeirStatus weir_build_emitters(WeirBuild *build)
     world->emitter_count = scene->emitter_count;
     if (status) return status;
     if (points.failed) return weir_fail(&scene->error, WEIR_ERROR_MEMORY, "emitters: memory ran out");
-    build->empty = (uint32_t)fmin(ceil(slots), MOST_SLOTS);
+    build->empty = slot_count(build, &slots);
     for (uint32_t n = 0; n < scene->drain_count; ++n) {
         for (uint32_t axis = 0; axis < build->dimension; ++axis) {
             world->drains[n].min[axis] = (float)scene->drain[n].min[axis];

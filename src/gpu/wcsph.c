@@ -187,15 +187,27 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     return WEIR_OK;
 }
 
+// When the emitters' layers are due, and when the first of them is.
+static void write_schedule(WeirWcsphGpu *solver, uint32_t next_due[2])
+{
+    WGPUBuffer schedule = solver->common.buffers.handle[WEIR_WCSPH_schedule];
+    next_due[0] = next_due[1] = UINT32_MAX; // never
+    for (uint32_t n = 0; n < solver->traits.emitter_count; ++n) {
+        uint32_t due[4];
+        write_ticks(solver->world.emitters[n].start, due);
+        write_ticks(solver->world.emitters[n].stop, due + 2);
+        wgpuQueueWriteBuffer(solver->common.gpu->queue, schedule, 16 * (uint64_t)n, due, sizeof due);
+        if (due[1] > next_due[1] || (due[1] == next_due[1] && due[0] >= next_due[0])) continue;
+        next_due[0] = due[0];
+        next_due[1] = due[1];
+    }
+}
+
 static void write_control(WeirWcsphGpu *solver)
 {
     WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_id = UINT32_MAX, .starting = 1, .sorting = 1};
     control.next_allowance = solver->traits.least_allowance;
-    for (uint32_t n = 0; n < solver->traits.emitter_count; ++n) {
-        const WeirEmitter *emitter = &solver->world.emitters[n];
-        write_ticks(emitter->start, control.due[n]);
-        write_ticks(emitter->stop, control.due[n] + 2);
-    }
+    write_schedule(solver, control.next_due);
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
     solver->seen = control;
     solver->counted = 0;

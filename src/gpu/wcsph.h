@@ -12,6 +12,7 @@
 // they are sorted. A batch starts with begin and drift; its last step ends in the state, without the next one's drift.
 #pragma once
 
+#include "core/scene.h"
 #include "gpu/solver.h"
 
 #include <assert.h>
@@ -36,13 +37,15 @@
     WEIR_BUFFER(motion_rows)                                                                                 \
     WEIR_BUFFER(vacancy)                                                                                     \
     WEIR_BUFFER(nozzle)                                                                                      \
+    WEIR_BUFFER(schedule)                                                                                    \
     WEIR_BUFFER(control)
 
 typedef enum WeirWcsphBuffer {
     WEIR_WCSPH_parameters, // the uniforms
     WEIR_WCSPH_constants,
     WEIR_WCSPH_solid_table,
-    WEIR_WCSPH_flows,
+    WEIR_WCSPH_emitters,
+    WEIR_WCSPH_drains,
 #define WEIR_BUFFER(name) WEIR_WCSPH_##name,
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
@@ -78,7 +81,7 @@ typedef enum WeirWcsphGpuPass {
 
 // What a world asks of the passes.
 typedef struct WeirWcsphTraits {
-    uint32_t dimension, solid_count, emitter_count, drain_count;
+    uint32_t dimension, solid_count, emitter_count, drain_count, drain_group_count;
     uint32_t block_count, free_block_count; // blocks of solid particles; those of free bodies come first
     bool moving_solids, free_solids, slip_solids, can_empty;
     float fastest_surface; // largest surface_velocity of a solid, m/s
@@ -91,8 +94,8 @@ typedef struct WeirWcsphTraits {
 
 // Particles of one block of pass solid_forces.
 enum { WEIR_SOLID_BLOCK = 1024 };
-// Emitters and drains that fit into uniform buffer `flows`.
-enum { WEIR_WCSPH_MAX_FLOWS = 16 };
+// Ids whose empty slots pass vacancies counts together.
+enum { WEIR_VACANCY_BLOCK = 128 };
 
 // `struct Control` in shaders/common/state.wgsl. Times: low and high word of a count of 2^-42 s.
 typedef struct WeirWcsphControl {
@@ -106,19 +109,17 @@ typedef struct WeirWcsphControl {
     int32_t bad_place[4];
     uint32_t drained, lost, emitted, restored;
     uint32_t side, last_side, sorting, stale;
-    uint32_t travelled, moved_finish, moved_drift, sorted_at, allowance, next_allowance, unused[2];
-    uint32_t due[WEIR_WCSPH_MAX_FLOWS][4];
+    uint32_t travelled, moved_finish, moved_drift, sorted_at, allowance, next_allowance;
+    uint32_t next_due[2];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 160 + 16 * WEIR_WCSPH_MAX_FLOWS,
-              "the layout of the shaders' struct");
+static_assert(sizeof(WeirWcsphControl) == 160, "the layout of the shaders' struct");
 
-// `struct Flows`.
-typedef struct WeirWcsphFlows {
-    WeirEmitter emitters[WEIR_WCSPH_MAX_FLOWS];
-    WeirDrain drains[WEIR_WCSPH_MAX_FLOWS];
-} WeirWcsphFlows;
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
+// What a uniform buffer may hold everywhere.
+static_assert(WEIR_MAX_EMITTERS * sizeof(WeirEmitter) <= 65536 &&
+                  (WEIR_MAX_DRAINS + WEIR_MAX_DRAINS / WEIR_DRAIN_GROUP) * sizeof(WeirDrain) <= 65536,
+              "WebGPU's limit");
 static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
 
 // wcsph_neighbors.c

@@ -46,7 +46,8 @@ static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
     [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true},
     [WEIR_WCSPH_constants] = {"constants", "buffer constants", true},
     [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true},
-    [WEIR_WCSPH_flows] = {"flows", "buffer flows", true},
+    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true},
+    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true},
 #define WEIR_BUFFER(name) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false},
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
@@ -80,9 +81,10 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                           BIT(id) | BIT(kicked) | BIT(solid_state) | BIT(local_place),
                           BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id),
-                              BIT(vacancy) | BIT(control), WEIR_ITEMS_PARTICLES},
+                              BIT(vacancy) | BIT(control), WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_EMIT] = {WCSPH(emit), NULL, clock_part, BIT(nozzle),
-                         BIT(vacancy) | BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_ONE},
+                         BIT(vacancy) | BIT(schedule) | BIT(coordinate) | BIT(motion) | BIT(control),
+                         WEIR_ITEMS_ONE},
     [WEIR_WCSPH_COUNT] = {WCSPH(count), NULL, sorting_part, BIT(coordinate) | BIT(id) | BIT(control),
                           BIT(cell_count) | BIT(cell_link), WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_SCAN_REDUCE] = {SOLVE(scan_reduce), NULL, sorting_part, BIT(cell_count) | BIT(control),
@@ -155,7 +157,9 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_parameters] = sizeof(WeirParameters);
     sizes[WEIR_WCSPH_constants] = sizeof(WeirConstants);
     sizes[WEIR_WCSPH_solid_table] = solids * sizeof(WeirSolid);
-    sizes[WEIR_WCSPH_flows] = sizeof(WeirWcsphFlows);
+    sizes[WEIR_WCSPH_emitters] = at_least_one(traits->emitter_count) * sizeof(WeirEmitter);
+    sizes[WEIR_WCSPH_drains] =
+        at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
     sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
     sizes[WEIR_WCSPH_neighbor_list] = 16 * 128 * ((count + 127) / 128) * (traits->list_chunks + 1);
     sizes[WEIR_WCSPH_solid_slot] = 4 * at_least_one(solid_particles);
@@ -169,9 +173,11 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_blocks] = 16 * at_least_one(traits->block_count);
     sizes[WEIR_WCSPH_solid_sum] = 64 * at_least_one(traits->block_count);
     sizes[WEIR_WCSPH_motion_rows] = at_least_one(world->motion_count) * sizeof(WeirMotionRow);
-    bool emits = world->emitter_count > 0;
-    sizes[WEIR_WCSPH_vacancy] = emits ? 4 * ((uint64_t)constants->first_solid + world->point_count) : 16;
+    // Slots by id, the blocks' counts, what is found for one layer of each emitter.
+    uint64_t slots = constants->first_solid, blocks = slots / WEIR_VACANCY_BLOCK + 1;
+    sizes[WEIR_WCSPH_vacancy] = traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
     sizes[WEIR_WCSPH_nozzle] = 16 * at_least_one(world->point_count);
+    sizes[WEIR_WCSPH_schedule] = 16 * at_least_one(traits->emitter_count);
     sizes[WEIR_WCSPH_control] = sizeof(WeirWcsphControl);
 }
 
@@ -213,7 +219,12 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("BLOCKS", traits->block_count > 0 ? traits->block_count : 1);
     NUMBER("FREE_BLOCKS", traits->free_block_count);
     NUMBER("EMITTER_COUNT", traits->emitter_count);
-    NUMBER("DRAIN_COUNT", traits->drain_count);
+    NUMBER("EMITTERS", traits->emitter_count > 0 ? traits->emitter_count : 1);
+    NUMBER("VACANCY_BLOCK", (uint32_t)WEIR_VACANCY_BLOCK);
+    uint32_t drains = traits->drain_group_count + traits->drain_count;
+    NUMBER("DRAINS", drains > 0 ? drains : 1);
+    NUMBER("DRAIN_GROUPS", traits->drain_group_count);
+    NUMBER("DRAIN_GROUP", (uint32_t)WEIR_DRAIN_GROUP);
 #undef NUMBER
 #undef FLAG
 #undef APPEND

@@ -23,7 +23,8 @@ static void note_traits(WeirWcsphGpu *solver)
     *traits = (WeirWcsphTraits){.dimension = solver->common.constants.dimension,
                                 .solid_count = world->solid_count,
                                 .emitter_count = world->emitter_count,
-                                .drain_count = world->drain_count};
+                                .drain_count = world->drain_count,
+                                .drain_group_count = world->drain_group_count};
     for (uint32_t n = 0; n < world->solid_count; ++n) {
         const WeirSolid *solid = &world->solids[n];
         traits->moving_solids = traits->moving_solids || solid->kind != WEIR_SOLID_FIXED;
@@ -78,6 +79,7 @@ bool weir_gpu_wcsph_copy_world(WeirWcsphGpu *solver, const WeirSolverSetup *setu
     copy->emitters = copy_array(world->emitters, world->emitter_count, sizeof *world->emitters, &good);
     copy->points = copy_array(world->points, coordinates, sizeof *world->points, &good);
     copy->drains = copy_array(world->drains, world->drain_count, sizeof *world->drains, &good);
+    good = good && weir_world_group_drains(copy);
     size_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
     solver->local_place = calloc(4 * solid_particles + 4, sizeof *solver->local_place);
     if (!good || !solver->local_place) return false;
@@ -102,36 +104,46 @@ static int32_t coordinate_of(const WeirConstants *constants, double place, uint3
 }
 
 // Where an emitter's particles are born: one support radius upstream of their points of the nozzle.
-static void write_nozzles(WeirWcsphGpu *solver)
+static void write_nozzle(WeirWcsphGpu *solver, const WeirEmitter *emitter)
 {
+    enum { AT_ONCE = 64 };
     const WeirConstants *constants = &solver->common.constants;
-    const WeirWorld *world = &solver->world;
     uint32_t dimension = constants->dimension;
-    for (uint32_t n = 0; n < world->emitter_count; ++n) {
-        const WeirEmitter *emitter = &world->emitters[n];
-        for (uint32_t k = 0; k < emitter->point_count; ++k) {
-            uint32_t point = emitter->point_first + k;
-            int32_t place[4] = {0, 0, 0, 0};
-            for (uint32_t axis = 0; axis < dimension; ++axis) {
-                double at = world->points[(size_t)dimension * point + axis];
-                double upstream = (double)constants->search_radius * (double)emitter->direction[axis];
-                place[axis] = coordinate_of(constants, at - upstream, axis);
-            }
-            wgpuQueueWriteBuffer(solver->common.gpu->queue, solver->common.buffers.handle[WEIR_WCSPH_nozzle],
-                                 16 * (uint64_t)point, place, sizeof place);
+    WGPUBuffer nozzle = solver->common.buffers.handle[WEIR_WCSPH_nozzle];
+    int32_t places[AT_ONCE][4] = {{0}};
+    for (uint32_t k = 0; k < emitter->point_count; ++k) {
+        uint32_t point = emitter->point_first + k, ready = k % AT_ONCE + 1;
+        for (uint32_t axis = 0; axis < dimension; ++axis) {
+            double at = solver->world.points[(size_t)dimension * point + axis];
+            double upstream = (double)constants->search_radius * (double)emitter->direction[axis];
+            places[ready - 1][axis] = coordinate_of(constants, at - upstream, axis);
         }
+        if (ready < AT_ONCE && k + 1 < emitter->point_count) continue;
+        wgpuQueueWriteBuffer(solver->common.gpu->queue, nozzle, 16 * (uint64_t)(point + 1 - ready), places,
+                             ready * sizeof *places);
     }
+}
+
+static void write_flows(WeirWcsphGpu *solver)
+{
+    WeirBuffers *buffers = &solver->common.buffers;
+    const WeirWorld *world = &solver->world;
+    if (world->emitter_count > 0)
+        weir_buffers_write(buffers, WEIR_WCSPH_emitters, world->emitters,
+                           world->emitter_count * sizeof *world->emitters);
+    for (uint32_t n = 0; n < world->emitter_count; ++n) write_nozzle(solver, &world->emitters[n]);
+    if (world->drain_count == 0) return;
+    size_t groups = world->drain_group_count * sizeof *world->drain_groups;
+    weir_buffers_write(buffers, WEIR_WCSPH_drains, world->drain_groups, groups);
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_drains], groups, world->drains,
+                         world->drain_count * sizeof *world->drains);
 }
 
 void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver)
 {
     WeirBuffers *buffers = &solver->common.buffers;
     const WeirWorld *world = &solver->world;
-    WeirWcsphFlows flows = {0};
-    for (uint32_t n = 0; n < world->emitter_count; ++n) flows.emitters[n] = world->emitters[n];
-    for (uint32_t n = 0; n < world->drain_count; ++n) flows.drains[n] = world->drains[n];
-    weir_buffers_write(buffers, WEIR_WCSPH_flows, &flows, sizeof flows);
-    write_nozzles(solver);
+    write_flows(solver);
     if (world->motion_count > 0)
         weir_buffers_write(buffers, WEIR_WCSPH_motion_rows, world->motion,
                            world->motion_count * sizeof *world->motion);

@@ -208,6 +208,8 @@ static void pieces_that_cannot_be_are_refused(void **state)
          "bodies[0].box.min 0.9 0.5; bodies[0].box.max 1.5 0.75; bodies[0].density 1",
          {"emitters[0]", "blows into bodies[0]"}},
         {2, "emitters[0].capacity 1.5", {"emitters[0].capacity", "whole number"}},
+        {2, "emitters[1024].size 0.1", {"emitters[1024].size", "more than 1024 emitters"}},
+        {2, "drains[1024].min 0 0", {"drains[1024].min", "more than 1024 drains"}},
         {2, "drains[0].min 1 0", {"drains[0]", "max", "missing"}},
         {2, "drains[0].min 1 0; drains[0].max 0 1", {"drains[0]", "min x = 1"}},
         // Probes.
@@ -468,6 +470,15 @@ static void emitters_have_points_and_slots(void **state)
     world = world_of(chosen);
     assert_int_equal(world.particles.fluid_slots, 800 + 4 * 4);
     weir_world_free(&world);
+    // Two emitters fill no more of it.
+    WeirScene *two =
+        tank_with(2, "emitters[0].center 1 0.8; emitters[0].direction 0 -1; emitters[0].size 0.2; "
+                     "emitters[0].speed 1; emitters[1].center 0.5 0.8; emitters[1].direction 0 -1; "
+                     "emitters[1].size 0.1; emitters[1].speed 1");
+    world = world_of(two);
+    assert_int_equal(world.particles.fluid_slots, 800 + 4 * 4 + 4 * 2);
+    weir_world_free(&world);
+    weir_scene_destroy(two);
     CHECK_SCENE(chosen, weir_scene_set_number(chosen, "emitters[0].stop", 0.5), WEIR_OK);
     world = world_of(chosen);
     assert_int_equal(world.particles.fluid_slots, 320 + 4 * 11);
@@ -480,6 +491,37 @@ static void emitters_have_points_and_slots(void **state)
     assert_int_equal(world.point_count, 12); // of 16 sites, those inside the circle
     weir_world_free(&world);
     weir_scene_destroy(scene);
+}
+
+// Drains in any order: each is in one group, inside its box; what is in no box is in no drain.
+static void drains_are_grouped(void **state)
+{
+    (void)state;
+    enum { COUNT = 2 * WEIR_DRAIN_GROUP + 5 };
+    WeirWorld world = {.drains = calloc(COUNT, sizeof *world.drains), .drain_count = COUNT};
+    WeirRandom random = {7};
+    assert_non_null(world.drains);
+    double sum = 0;
+    for (int n = 0; n < COUNT; ++n) {
+        for (int axis = 0; axis < 3; ++axis) {
+            world.drains[n].min[axis] = (float)weir_random_range(&random, -2, 2);
+            world.drains[n].max[axis] = world.drains[n].min[axis] + (float)weir_random_range(&random, 0, 1);
+            sum += (double)world.drains[n].min[axis] + 3 * (double)world.drains[n].max[axis];
+        }
+    }
+    assert_true(weir_world_group_drains(&world));
+    assert_int_equal(world.drain_group_count, 3);
+    for (int n = 0; n < COUNT; ++n) {
+        const WeirDrain *drain = &world.drains[n], *group = &world.drain_groups[n / WEIR_DRAIN_GROUP];
+        for (int axis = 0; axis < 3; ++axis) {
+            assert_true(drain->min[axis] >= group->min[axis] && drain->max[axis] <= group->max[axis]);
+            sum -= (double)drain->min[axis] + 3 * (double)drain->max[axis];
+        }
+    }
+    CHECK_NEAR(sum, 0, 1e-9); // the same drains
+    // Neighbours along x: the boxes hardly overlap.
+    assert_true(world.drain_groups[0].max[0] < world.drain_groups[2].min[0]);
+    weir_world_free(&world);
 }
 
 // An inlet through the wall: no wall where its layers come from, a closed one elsewhere.
@@ -511,6 +553,7 @@ int main(void)
         cmocka_unit_test(solid_moments_in_3d),
         cmocka_unit_test(motions_become_tables),
         cmocka_unit_test(emitters_have_points_and_slots),
+        cmocka_unit_test(drains_are_grouped),
         cmocka_unit_test(inlets_open_the_wall),
     };
     return cmocka_run_group_tests_name("pieces", tests, NULL, NULL);

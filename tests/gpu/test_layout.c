@@ -43,7 +43,7 @@ static const Field fields[] = {
     SOLID(velocity, VECTOR),
     SOLID(angular_velocity, VECTOR),
 #define EMITTER(name, kind)                                                                                  \
-    {"flows.emitters[3]", #name, kind, 3 * sizeof(WeirEmitter) + offsetof(WeirEmitter, name)}
+    {"emitters[3]", #name, kind, 3 * sizeof(WeirEmitter) + offsetof(WeirEmitter, name)}
     EMITTER(point_first, COUNT),
     EMITTER(point_count, COUNT),
     EMITTER(speed, NUMBER),
@@ -51,10 +51,8 @@ static const Field fields[] = {
     EMITTER(stop, NUMBER),
     EMITTER(direction, VECTOR),
     EMITTER(center, VECTOR),
-    {"flows.drains[2]", "low", VECTOR,
-     offsetof(WeirWcsphFlows, drains) + 2 * sizeof(WeirDrain) + offsetof(WeirDrain, min)},
-    {"flows.drains[2]", "high", VECTOR,
-     offsetof(WeirWcsphFlows, drains) + 2 * sizeof(WeirDrain) + offsetof(WeirDrain, max)},
+    {"drains[2]", "low", VECTOR, 2 * sizeof(WeirDrain) + offsetof(WeirDrain, min)},
+    {"drains[2]", "high", VECTOR, 2 * sizeof(WeirDrain) + offsetof(WeirDrain, max)},
 #define STATE(name)                                                                                          \
     {"solid_state[2]", #name, VECTOR, 2 * sizeof(WeirSolidState) + offsetof(WeirSolidState, name)}
     STATE(position),
@@ -101,9 +99,10 @@ static const Field fields[] = {
     CONTROL(sorted_at, COUNT),
     CONTROL(allowance, COUNT),
     CONTROL(next_allowance, COUNT),
-    CONTROL(due[5], VECTOR),
+    {"control", "next_due.x", COUNT, offsetof(WeirWcsphControl, next_due)},
+    {"control", "next_due.y", COUNT, offsetof(WeirWcsphControl, next_due) + 4},
 };
-enum { FIELDS = sizeof fields / sizeof fields[0], SOLIDS = 3 };
+enum { FIELDS = sizeof fields / sizeof fields[0], SOLIDS = 3, EMITTERS = 4, DRAINS = 2, GROUPS = 1 };
 
 // The buffers that the pass reads, by what the fields' owners start with, and the one that it writes, last.
 typedef struct Source {
@@ -116,7 +115,8 @@ static const Source sources[] = {
     {"parameters", WEIR_WCSPH_parameters, WGPUBufferBindingType_Uniform, sizeof(WeirParameters)},
     {"constants", WEIR_WCSPH_constants, WGPUBufferBindingType_Uniform, sizeof(WeirConstants)},
     {"solid_table", WEIR_WCSPH_solid_table, WGPUBufferBindingType_Uniform, SOLIDS * sizeof(WeirSolid)},
-    {"flows", WEIR_WCSPH_flows, WGPUBufferBindingType_Uniform, sizeof(WeirWcsphFlows)},
+    {"emitters", WEIR_WCSPH_emitters, WGPUBufferBindingType_Uniform, EMITTERS * sizeof(WeirEmitter)},
+    {"drains", WEIR_WCSPH_drains, WGPUBufferBindingType_Uniform, (GROUPS + DRAINS) * sizeof(WeirDrain)},
     {"solid_state", WEIR_WCSPH_solid_state, WGPUBufferBindingType_ReadOnlyStorage,
      SOLIDS * sizeof(WeirSolidState)},
     {"control", WEIR_WCSPH_control, WGPUBufferBindingType_ReadOnlyStorage, sizeof(WeirWcsphControl)},
@@ -148,7 +148,12 @@ static char *make_shader(void)
     WeirParameters parameters = {0};
     WeirConstants constants = {0};
     weir_gpu_wcsph_settings(&parameters, &constants,
-                            &(WeirWcsphTraits){.dimension = 2, .solid_count = SOLIDS}, settings);
+                            &(WeirWcsphTraits){.dimension = 2,
+                                               .solid_count = SOLIDS,
+                                               .emitter_count = EMITTERS,
+                                               .drain_count = DRAINS,
+                                               .drain_group_count = GROUPS},
+                            settings);
     char *source = weir_pass_source(weir_gpu_wcsph_method(2), settings, 1, NULL, body);
     assert_non_null(source);
     return source;

@@ -191,34 +191,39 @@ static void border_2d(WeirTestWorld *test)
     }
 }
 
-static void add_tap(WeirTestWorld *test, double x, double y)
+// `across` particles wide; the first and the last layer may come at `start` and `stop`, s.
+static void add_tap(WeirTestWorld *test, double x, double y, uint32_t across, double start, double stop)
 {
     WeirWorld *world = &test->world;
-    uint32_t dimension = world->particles.dimension, across = 3, layers = dimension == 3 ? 3 : 1;
-    world->emitters = calloc(1, sizeof *world->emitters);
-    world->points = calloc((size_t)across * layers * dimension, sizeof *world->points);
+    uint32_t dimension = world->particles.dimension, count = dimension == 3 ? across * across : across;
+    uint32_t n = world->emitter_count++, first = world->point_count;
+    world->point_count += count;
+    world->emitters = realloc(world->emitters, world->emitter_count * sizeof *world->emitters);
+    world->points = realloc(world->points, (size_t)world->point_count * dimension * sizeof *world->points);
     assert_true(world->emitters && world->points);
-    world->emitter_count = 1;
-    world->point_count = across * layers;
-    world->emitters[0] = (WeirEmitter){
-        .point_count = across * layers, .speed = 3, .start = 0.003f, .stop = 0.05f, .direction = {0, -1, 0}};
-    const double center[3] = {x, y, 0.2};
-    for (uint32_t axis = 0; axis < dimension; ++axis) world->emitters[0].center[axis] = (float)center[axis];
-    for (uint32_t k = 0; k < across * layers; ++k) {
-        double *point = world->points + (size_t)dimension * k;
-        point[0] = x + ((double)(k % across) - 1) * test->spacing;
+    world->emitters[n] = (WeirEmitter){.point_first = first,
+                                       .point_count = count,
+                                       .speed = 3,
+                                       .start = (float)start,
+                                       .stop = (float)stop,
+                                       .direction = {0, -1, 0}};
+    const double center[3] = {x, y, 0.2}, middle = 0.5 * (across - 1);
+    for (uint32_t axis = 0; axis < dimension; ++axis) world->emitters[n].center[axis] = (float)center[axis];
+    for (uint32_t k = 0; k < count; ++k) {
+        double *point = world->points + (size_t)dimension * (first + k);
+        point[0] = x + (k % across - middle) * test->spacing;
         point[1] = y;
-        if (dimension == 3) point[2] = 0.2 + ((double)(k / across) - 1) * test->spacing;
+        if (dimension == 3) point[2] = 0.2 + (k / across - middle) * test->spacing;
     }
 }
 
 static void add_drain(WeirTestWorld *test, double x0, double x1, double y1)
 {
     WeirWorld *world = &test->world;
-    world->drains = calloc(1, sizeof *world->drains);
+    uint32_t n = world->drain_count++;
+    world->drains = realloc(world->drains, world->drain_count * sizeof *world->drains);
     assert_non_null(world->drains);
-    world->drain_count = 1;
-    world->drains[0] = (WeirDrain){{(float)x0, 0, 0, 0}, {(float)x1, (float)y1, 1, 0}};
+    world->drains[n] = (WeirDrain){{(float)x0, 0, 0, 0}, {(float)x1, (float)y1, 1, 0}};
 }
 
 static void tap_2d(WeirTestWorld *test)
@@ -227,8 +232,23 @@ static void tap_2d(WeirTestWorld *test)
     weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.6, 0.2, 0}, 0.1, 0.3);
     weir_test_world_slots(test, 5);
     weir_test_world_sides(test);
-    add_tap(test, 0.3, 0.5);
+    add_tap(test, 0.3, 0.5, 3, 0.003, 0.05);
     add_drain(test, 0.45, 0.6, 0.12);
+}
+
+// Taps of one to three particles whose layers come together, one by one, or never, too few slots for all, and a row of
+// drains, last ones first.
+static void taps_2d(WeirTestWorld *test)
+{
+    *test = start(2, 2, 0.8, 0);
+    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){2, 0.1, 0}, 0.1, 0.3);
+    weir_test_world_slots(test, 60);
+    weir_test_world_sides(test);
+    for (uint32_t n = 0; n < 18; ++n) {
+        double first = 0.002 * (n % 4);
+        add_tap(test, 0.15 + 0.1 * n, 0.4, 1 + n % 3, first, n == 7 ? first : 0.03 + 0.001 * n);
+    }
+    for (int n = 39; n >= 0; --n) add_drain(test, 0.05 * n, 0.05 * n + 0.01, 0.06);
 }
 
 static void tap_3d(WeirTestWorld *test)
@@ -237,7 +257,7 @@ static void tap_3d(WeirTestWorld *test)
     weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.5, 0.15, 0.4}, 0.11, 0.3);
     weir_test_world_slots(test, 300);
     weir_test_world_sides(test);
-    add_tap(test, 0.25, 0.4);
+    add_tap(test, 0.25, 0.4, 3, 0.003, 0.05);
     add_drain(test, 0.4, 0.5, 0.1);
 }
 
@@ -279,9 +299,9 @@ const WeirTestCase weir_test_cases[] = {
     {"plain_2d", plain_2d, 60},     {"periodic_2d", periodic_2d, 60}, {"periodic_3d", periodic_3d, 40},
     {"channel_2d", channel_2d, 60}, {"piston_2d", piston_2d, 100},    {"shaker_3d", shaker_3d, 60},
     {"bodies_2d", bodies_2d, 100},  {"body_3d", body_3d, 40},         {"tap_2d", tap_2d, 100},
-    {"tap_3d", tap_3d, 50},         {"open_2d", open_2d, 60},         {"long_2d", long_2d, 60},
-    {"folded_2d", folded_2d, 30},   {"folded_3d", folded_3d, 30},     {"border_2d", border_2d, 60},
-    {"throw_2d", throw_2d, 15},     {"throw_3d", throw_3d, 15},
+    {"taps_2d", taps_2d, 60},       {"tap_3d", tap_3d, 50},           {"open_2d", open_2d, 60},
+    {"long_2d", long_2d, 60},       {"folded_2d", folded_2d, 30},     {"folded_3d", folded_3d, 30},
+    {"border_2d", border_2d, 60},   {"throw_2d", throw_2d, 15},       {"throw_3d", throw_3d, 15},
 };
 const uint32_t weir_test_case_count = sizeof weir_test_cases / sizeof weir_test_cases[0];
 

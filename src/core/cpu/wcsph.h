@@ -73,10 +73,11 @@ typedef struct WeirWcsph {
     WeirWorld world;           // without particles
     WeirSolidState *solids;
     WeirWcsphEmitterState *emitters;
+    uint32_t *vacancy;  // by id of the fluid, if there are emitters: for weir_wcsph_emit()
     float *local;       // 3 per solid particle: where it is from its solid's reference point at the start, m
     float *solid_force; // 6 per solid particle: force of the fluid, of contact, N
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
-    bool has_emitters, has_drains, has_moving_solids, has_free_bodies;
+    bool has_emitters, has_moving_solids, has_free_bodies;
     float dt; // of the step that is being taken
     WeirWcsphClock clock;
     WeirWcsphSnapshot snapshot;

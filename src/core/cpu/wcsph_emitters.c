@@ -2,33 +2,33 @@
 #include "core/cpu/wcsph.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
-// An empty slot: where it is in the state's arrays, and its id.
-typedef struct Slot {
-    uint32_t id, place;
-} Slot;
-
-static int by_id(const void *a, const void *b)
+static double travel_of(const WeirWcsph *solver, uint32_t n, double time)
 {
-    uint32_t x = ((const Slot *)a)->id, y = ((const Slot *)b)->id;
-    return (x > y) - (x < y);
+    const WeirEmitter *emitter = &solver->world.emitters[n];
+    return emitter->speed * (time - emitter->start);
 }
 
-// The empty slots by id; NULL if there are none or memory runs out (the layer waits then).
-static Slot *empty_slots(const WeirWcsph *solver, uint32_t *count)
+// One layer per spacing of flow.
+static bool is_due(const WeirWcsph *solver, uint32_t n, double time)
 {
-    *count = 0;
+    const WeirEmitter *emitter = &solver->world.emitters[n];
+    return time >= emitter->start && time <= emitter->stop &&
+           travel_of(solver, n, time) >= solver->emitters[n].next_travel;
+}
+
+// Leaves the places of the `wanted` empty slots of the lowest ids in solver->vacancy, by id; returns how many there are.
+static uint32_t find_slots(WeirWcsph *solver, uint32_t wanted)
+{
+    const WeirWcsphParticles *state = &solver->state;
+    uint32_t *vacancy = solver->vacancy, slots = solver->constants.first_solid, found = 0;
+    memset(vacancy, 0, slots * sizeof *vacancy);
     for (uint32_t i = 0; i < solver->constants.particle_count; ++i)
-        *count += solver->state.group[i] == WEIR_GROUP_EMPTY;
-    Slot *slots = *count > 0 ? malloc(*count * sizeof *slots) : NULL;
-    if (!slots) return NULL;
-    uint32_t next = 0;
-    for (uint32_t i = 0; i < solver->constants.particle_count; ++i) {
-        if (solver->state.group[i] == WEIR_GROUP_EMPTY) slots[next++] = (Slot){solver->state.id[i], i};
-    }
-    qsort(slots, *count, sizeof *slots, by_id);
-    return slots;
+        if (state->group[i] == WEIR_GROUP_EMPTY) vacancy[state->id[i]] = i + 1;
+    for (uint32_t id = 0; id < slots && found < wanted; ++id)
+        if (vacancy[id] > 0) vacancy[found++] = vacancy[id] - 1;
+    return found;
 }
 
 // A particle of the layer that has come `way` metres from the place of birth.
@@ -51,25 +51,29 @@ static void bear(WeirWcsph *solver, uint32_t n, uint32_t point, double way, uint
     state->group[i] = WEIR_GROUP_INLET + n;
 }
 
-// One layer per spacing of flow. A layer that finds too few empty slots waits, whole.
-static void emit_from(WeirWcsph *solver, uint32_t n, double time)
+static void bear_layer(WeirWcsph *solver, uint32_t n, double time, const uint32_t *places)
 {
-    const WeirEmitter *emitter = &solver->world.emitters[n];
-    double spacing = solver->parameters.particle_spacing, travel = emitter->speed * (time - emitter->start);
+    double spacing = solver->parameters.particle_spacing, travel = travel_of(solver, n, time);
     double *due = &solver->emitters[n].next_travel;
-    if (time < emitter->start || time > emitter->stop || travel < *due) return;
-    uint32_t empty;
-    Slot *slots = empty_slots(solver, &empty);
-    if (slots && empty >= emitter->point_count) {
-        double way = travel - *due < spacing ? travel - *due : 0.0; // 0: it waited
-        for (uint32_t k = 0; k < emitter->point_count; ++k) bear(solver, n, k, way, slots[k].place);
-        *due = travel - way + spacing;
-    }
-    free(slots);
+    double way = travel - *due < spacing ? travel - *due : 0.0; // 0: it waited
+    for (uint32_t k = 0; k < solver->world.emitters[n].point_count; ++k) bear(solver, n, k, way, places[k]);
+    *due = travel - way + spacing;
 }
 
+// One look for empty slots serves all layers that are due, in order. A layer that finds too few waits, whole.
 void weir_wcsph_emit(WeirWcsph *solver)
 {
+    const WeirWorld *world = &solver->world;
     double time = solver->clock.time + 0.5 * solver->dt;
-    for (uint32_t n = 0; n < solver->world.emitter_count; ++n) emit_from(solver, n, time);
+    uint32_t wanted = 0, taken = 0;
+    for (uint32_t n = 0; n < world->emitter_count; ++n)
+        wanted += is_due(solver, n, time) ? world->emitters[n].point_count : 0;
+    if (wanted == 0) return;
+    uint32_t found = find_slots(solver, wanted);
+    for (uint32_t n = 0; n < world->emitter_count; ++n) {
+        uint32_t count = world->emitters[n].point_count;
+        if (!is_due(solver, n, time) || count > found - taken) continue;
+        bear_layer(solver, n, time, solver->vacancy + taken);
+        taken += count;
+    }
 }

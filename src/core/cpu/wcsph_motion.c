@@ -56,6 +56,24 @@ static inline WeirMask is_outside(const WeirConstants *constants, const WeirMask
     return outside;
 }
 
+// Which of the particles are in the box of a group of drains?
+static inline WeirMask is_near_drain(const WeirWcsph *solver, const WeirMask x[3])
+{
+    const WeirConstants *constants = &solver->constants;
+    WeirMask near = {0};
+    for (uint32_t n = 0; n < solver->world.drain_group_count; ++n) {
+        const WeirDrain *group = &solver->world.drain_groups[n];
+        WeirMask inside = ~(WeirMask){0};
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+            WeirLanes place =
+                constants->origin[axis] + __builtin_convertvector(x[axis], WeirLanes) * constants->quantum;
+            inside &= (WeirMask)(place >= group->min[axis]) & (WeirMask)(place <= group->max[axis]);
+        }
+        near |= inside;
+    }
+    return near;
+}
+
 static bool is_drained(const WeirWcsph *solver, uint32_t i)
 {
     const WeirConstants *constants = &solver->constants;
@@ -90,7 +108,7 @@ typedef struct Drift {
 } Drift;
 
 // What leaves the fluid or enters it: few particles, one by one.
-static void leave_or_enter(Drift *drift, uint32_t i, bool outside)
+static void leave_or_enter(Drift *drift, uint32_t i, bool near_drain, bool outside)
 {
     WeirWcsph *solver = drift->solver;
     uint32_t *group = &solver->state.group[i];
@@ -98,7 +116,7 @@ static void leave_or_enter(Drift *drift, uint32_t i, bool outside)
         if (has_passed(solver, i)) *group = WEIR_GROUP_FLUID;
         return;
     }
-    bool drained = solver->has_drains && is_drained(solver, i);
+    bool drained = near_drain && is_drained(solver, i);
     if (!drained && !outside) return;
     *group = WEIR_GROUP_EMPTY;
     atomic_fetch_add_explicit(drained ? &drift->drained : &drift->lost, 1, memory_order_relaxed);
@@ -124,10 +142,11 @@ static void drift_chunk(void *context, uint32_t begin, uint32_t end)
         WeirLanes later = excess + half * weir_lanes_load(state->rate + i);
         weir_lanes_store(state->excess + i, weir_lanes_select(fluid, later, excess));
         WeirMask outside = is_outside(constants, x) & fluid;
-        WeirMask special = outside | (fluid & ~free_lanes(state->group, i, end));
-        if (!solver->has_drains && !weir_mask_any(special)) continue;
+        WeirMask near_drain = is_near_drain(solver, x) & fluid;
+        WeirMask special = outside | near_drain | (fluid & ~free_lanes(state->group, i, end));
+        if (!weir_mask_any(special)) continue;
         for (uint32_t lane = 0; lane < WEIR_LANES; ++lane) {
-            if (fluid[lane]) leave_or_enter(drift, i + lane, outside[lane]);
+            if (special[lane]) leave_or_enter(drift, i + lane, near_drain[lane], outside[lane]);
         }
     }
 }

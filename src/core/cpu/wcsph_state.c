@@ -72,8 +72,8 @@ static bool copy_world(WeirWcsph *solver, const WeirWorld *world)
     copy->points = copy_array(world->points, (size_t)world->point_count * world->particles.dimension,
                               sizeof(double), &good);
     copy->drains = copy_array(world->drains, world->drain_count, sizeof *world->drains, &good);
+    good = good && weir_world_group_drains(copy);
     solver->has_emitters = world->emitter_count > 0;
-    solver->has_drains = world->drain_count > 0;
     for (uint32_t n = 0; good && n < world->solid_count; ++n) {
         solver->has_moving_solids = solver->has_moving_solids || world->solids[n].kind != WEIR_SOLID_FIXED;
         solver->has_free_bodies = solver->has_free_bodies || world->solids[n].kind == WEIR_SOLID_FREE;
@@ -102,10 +102,12 @@ bool weir_wcsph_allocate(WeirWcsph *solver, const WeirSolverSetup *setup)
     solver->solids = calloc(solids, sizeof *solver->solids);
     solver->snapshot.solids = calloc(solids, sizeof *solver->solids);
     solver->emitters = calloc(emitters, sizeof *solver->emitters);
+    solver->vacancy =
+        calloc(solver->has_emitters ? setup->constants.first_solid + 1 : 1, sizeof *solver->vacancy);
     solver->local = calloc(3 * solid_particles + 1, sizeof *solver->local);
     solver->solid_force = calloc(6 * solid_particles + 1, sizeof *solver->solid_force);
-    return solver->solids && solver->snapshot.solids && solver->emitters && solver->local &&
-           solver->solid_force;
+    return solver->solids && solver->snapshot.solids && solver->emitters && solver->vacancy &&
+           solver->local && solver->solid_force;
 }
 
 void weir_wcsph_free(WeirWcsph *solver)
@@ -121,6 +123,7 @@ void weir_wcsph_free(WeirWcsph *solver)
     weir_world_free(&solver->world);
     free(solver->solids);
     free(solver->emitters);
+    free(solver->vacancy);
     free(solver->local);
     free(solver->solid_force);
     if (solver->host) {
