@@ -7,7 +7,7 @@
 
 static const double spacing = 0.01;
 static const double full_turn = 6.283185307179586;
-enum { PARTICLES_PER_EMITTER = 1000, MOST_EMITTERS = 16 };
+enum { PARTICLES_PER_EMITTER = 1000, MOST_EMITTERS = 1024 };
 
 static const WeirBenchCase cases[] = {
     {"article", WEIR_BENCH_ARTICLE, 2, 0.0},

@@ -30,6 +30,8 @@ static const WeirBenchItem nasty[] = {
     {"thin_2d", 100 * K, 0},   {"emitters_2d", 100 * K, 0}, {"compressed_2d", 100 * K, 0},
     {"block_3d", 100 * K, -1}, {"corner_3d", 100 * K, 6},   {"far_3d", 100 * K, 6},
     {"thin_3d", 100 * K, 6},   {"emitters_3d", 100 * K, 6}, {"compressed_3d", 100 * K, 6},
+    {"block_2d", 1 * M, -1},   {"emitters_2d", 1 * M, 12}, // 1,000 of them
+    {"block_3d", 1 * M, -1},   {"emitters_3d", 1 * M, 14},
 };
 
 static const WeirBenchItem defaults[] = {

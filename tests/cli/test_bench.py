@@ -78,7 +78,8 @@ class Bench(WeirTest):
         "quick": ["article", "box_2d", "box_3d", "splash_2d", "splash_3d"],
         "default": ["box_2d_n45", "box_2d_n45", "box_3d_n111", "box_3d_n111"],
         "nasty": [f"{name}_{d}" for d in ("2d", "3d")
-                  for name in ("block", "corner", "far", "thin", "emitters", "compressed")],
+                  for name in ("block", "corner", "far", "thin", "emitters", "compressed")]
+        + ["block_2d", "emitters_2d", "block_3d", "emitters_3d"],
     }
 
     def suite(self, name, *arguments, scale="0.001", **options):
@@ -92,8 +93,11 @@ class Bench(WeirTest):
             for row in rows:
                 if row["ms_per_step"] < 1:
                     self.assertGreaterEqual(row["repetitions"], 2)
-                if name == "nasty" and row["scene"][-2:] == "2d":
-                    self.assertTrue(800 < row["particles"] < 1200, row)
+            if name == "nasty":
+                for n, row in enumerate(rows):
+                    count = 1000 if n < 12 else 10000
+                    if row["scene"][-2:] == "2d":
+                        self.assertTrue(0.8 * count < row["particles"] < 1.2 * count, row)
 
     def test_step_suite_has_the_table_of_targets(self):
         rows = json.loads(self.suite("step", "--json", scale="0.0003")[0])
@@ -102,14 +106,14 @@ class Bench(WeirTest):
                          {"pool_2d", "splash_2d", "pool_3d", "splash_3d"})
 
     def test_relative_is_time_per_particle_over_the_reference(self):
-        rows = {row["scene"]: row for row in json.loads(self.suite("nasty", "--json", scale="0.01")[0])}
+        rows = {row["scene"]: row for row in json.loads(self.suite("nasty", "--json", scale="0.01")[0])[:12]}
         time = {name: row["ms_per_step"] / row["particles"] for name, row in rows.items()}
         self.assertIsNone(rows["block_3d"]["relative"])
         for name, block in (("thin_2d", "block_2d"), ("compressed_3d", "block_3d")):
             self.assertAlmostEqual(rows[name]["relative"], time[name] / time[block], delta=1e-6)
 
     def test_nasty_cases_are_what_they_say(self):
-        rows = {row["scene"]: row for row in json.loads(self.suite("nasty", "--json", scale="0.02")[0])}
+        rows = {row["scene"]: row for row in json.loads(self.suite("nasty", "--json", scale="0.02")[0])[:12]}
         self.assertGreater(rows["compressed_2d"]["mean_neighbors"], 2 * rows["block_2d"]["mean_neighbors"])
         self.assertEqual(rows["far_2d"]["particles"], rows["block_2d"]["particles"] + 1)
         self.assertGreater(rows["emitters_2d"]["all_particles"], rows["emitters_2d"]["particles"])
