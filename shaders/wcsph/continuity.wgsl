@@ -40,6 +40,7 @@ fn take_drift(way: u32) {
 struct Own {
     motion: vec4f,
     hydrostatic: Vector, // density by height, per quantum
+    second_half: f32,    // quanta per m/s
 }
 
 struct Sums {
@@ -54,15 +55,19 @@ fn state_of(start: u32, j: u32) -> vec4f {
 fn add_itself(sums: ptr<function, Sums>, own: Own) {
 }
 
-// The kernel is 0 beyond the support.
+// Where particles are at the end of the step, so that the rate is that of the middle between two densities; over those
+// within the support in the middle of the step.
 fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
-    let acts = !(CAN_EMPTY && u32(other.w) == GROUP_EMPTY);
+    let support = f32(1u << constants.coordinate_bits);
+    let acts = !(CAN_EMPTY && u32(other.w) == GROUP_EMPTY) && dot(offset, offset) < support * support;
+    let relative = vector_of(own.motion) - vector_of(neighbor);
+    let end = offset + own.second_half * relative;
     let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
-    let slope = kernel_slope(sqrt(dot(offset, offset)) * constants.inverse_support) * inverse_density;
-    (*sums).divergence += slope * dot(vector_of(own.motion) - vector_of(neighbor), offset);
+    let slope = kernel_slope(sqrt(dot(end, end)) * constants.inverse_support) * inverse_density;
+    (*sums).divergence += slope * dot(relative, end);
     if DIFFUSION {
         // rho_j - rho_i less what the height between them makes
-        let excess = neighbor.w - own.motion.w + dot(offset, own.hydrostatic);
+        let excess = neighbor.w - own.motion.w + dot(end, own.hydrostatic);
         (*sums).diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
     }
 }
@@ -71,7 +76,7 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
 fn density_rate(i: u32, own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
     let c = constants.sound_speed;
     let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
-    let sums = sum_pairs(i, place_of(own), Own(own_motion, hydrostatic), side_start(control.last_side),
+    let sums = sum_pairs(i, place_of(own), Own(own_motion, hydrostatic, 0.5 * control.last_dt * constants.inverse_quantum), side_start(control.last_side),
                          control.travelled - control.sorted_at, control.allowance);
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;

@@ -29,7 +29,7 @@ struct Sums {
 const BARRIER_RANGE = 0.85; // spacings
 const BARRIER_STRENGTH = 4.0;
 const BRAKE_RANGE = 2.0;    // spacings
-const BRAKE_STRENGTH = 6.0;
+const BRAKE_STRENGTH = 2.4; // over the Courant number
 const BRAKE_LIMIT = 0.1;    // c0
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
 const VOLUME_TIME = 1000.0; // h / c0
@@ -158,7 +158,7 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
                 let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
                 let approach = -dot(approach_velocity(own, own_motion, other, motion[start + j]), offset)
                     / (r * constants.sound_speed);
-                let brake = BRAKE_STRENGTH * near * max(approach - BRAKE_LIMIT, 0.0);
+                let brake = BRAKE_STRENGTH / parameters.courant * near * max(approach - BRAKE_LIMIT, 0.0);
                 sum += ((push + brake) / r) * offset;
             }
         }

@@ -135,22 +135,49 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
 }
 
-// Sums over the sites of an endless resting lattice: V W with the middle included, and V (-F) r^2 / d. Both are 1 but for the
-// kernel's quadrature error.
+// Sites of an endless lattice: those of a box of cells, all of them or every other one as on a chessboard. The resting
+// lattice is square or cubic; fluid that has moved, and was shifted, comes close to the densest one, hexagonal or
+// face-centred cubic.
+typedef struct Lattice {
+    double cell[3]; // m; the third 0 in 2D
+    bool alternate;
+} Lattice;
+
+static Lattice resting_lattice(double spacing, uint32_t dimension)
+{
+    return (Lattice){{spacing, spacing, dimension == 3 ? spacing : 0.0}, false};
+}
+
+// With as much volume per site.
+static Lattice densest_lattice(double spacing, uint32_t dimension)
+{
+    if (dimension == 3) {
+        double edge = spacing / cbrt(2.0);
+        return (Lattice){{edge, edge, edge}, true};
+    }
+    double side = spacing * sqrt(2.0 / sqrt(3.0));
+    return (Lattice){{0.5 * side, 0.5 * sqrt(3.0) * side, 0.0}, true};
+}
+
+// Over the sites: V W with the middle included, and V (-F) r^2 / d. Both are 1 but for the kernel's quadrature error.
 typedef struct LatticeSums {
     double filling, laplacian;
 } LatticeSums;
 
-static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension)
+static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension, Lattice lattice)
 {
     double spacing = parameters->particle_spacing, support = parameters->support_radius;
     double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
-    int reach = (int)fmin(ceil(support / spacing), 100.0), layers = dimension == 3 ? reach : 0;
+    int reach[3] = {0, 0, 0};
+    for (uint32_t axis = 0; axis < dimension; ++axis)
+        reach[axis] = (int)fmin(ceil(support / lattice.cell[axis]), 100.0);
     LatticeSums sums = {0.0, 0.0};
-    for (int k = -layers; k <= layers; ++k) {
-        for (int j = -reach; j <= reach; ++j) {
-            for (int i = -reach; i <= reach; ++i) {
-                double r = spacing * sqrt((double)(i * i + j * j + k * k));
+    for (int k = -reach[2]; k <= reach[2]; ++k) {
+        for (int j = -reach[1]; j <= reach[1]; ++j) {
+            for (int i = -reach[0]; i <= reach[0]; ++i) {
+                if (lattice.alternate && (i + j + k) % 2 != 0) continue;
+                double x = i * lattice.cell[0], y = j * lattice.cell[1], z = k * lattice.cell[2];
+                double r = sqrt(x * x + y * y + z * z);
                 sums.filling += volume * weir_smoothing_value(parameters->kernel, dimension, r, support);
                 sums.laplacian -= volume * r * r / dimension *
                                   weir_smoothing_gradient(parameters->kernel, dimension, r, support);
@@ -171,8 +198,9 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);
     constants->gradient_factor = (float)weir_smoothing_gradient_factor(kernel, dimension, support);
     constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
-    LatticeSums lattice = lattice_sums(parameters, dimension);
-    constants->lattice_filling = (float)lattice.filling;
+    LatticeSums resting = lattice_sums(parameters, dimension, resting_lattice(spacing, dimension));
+    LatticeSums densest = lattice_sums(parameters, dimension, densest_lattice(spacing, dimension));
+    constants->lattice_filling = (float)resting.filling;
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
     constants->speed_limit = 4.0f * parameters->sound_speed; // docs/wcsph.md
@@ -182,8 +210,8 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     double laminar = 2.0 * (dimension + 2.0) * parameters->viscosity;
     constants->viscosity_factor = (float)fmax(artificial, laminar);
     constants->artificial_factor = artificial > laminar ? (float)artificial : 0.0f;
-    // On the lattice Morris' Laplacian of a quadratic field is exact.
-    constants->friction_factor = (float)(2.0 * parameters->viscosity / lattice.laplacian);
+    // On the densest lattice Morris' Laplacian of a quadratic field is exact.
+    constants->friction_factor = (float)(2.0 * parameters->viscosity / densest.laplacian);
     constants->laminar_factor = artificial > laminar ? 0.0f : constants->friction_factor;
     for (int axis = 0; axis < (int)dimension; ++axis) {
         for (int side = 0; side < 2; ++side)

@@ -35,7 +35,7 @@ WEIR_NUMBER(background_pressure, "Pa", 0.0, 0.0, 1e9, "wcsph", 1,
             "Added to every pressure; keeps a closed or periodic fluid without free surface from tension.")
 WEIR_NUMBER(central_force, "1/s^2", 0.0, 0.0, 1e6, "wcsph", 1,
             "Omega^2 of an acceleration -Omega^2 x towards the middle of the domain.")
-WEIR_NUMBER(courant, "1", 0.4, 0.01, 2.0, "wcsph", 1, "Courant number of the adaptive time step.")
+WEIR_NUMBER(courant, "1", 0.6, 0.01, 2.0, "wcsph", 1, "Courant number of the adaptive time step.")
 WEIR_NUMBER(time_step, "s", 0.0003, 1e-7, 0.1, "", 1,
             "Simulated time of one step; wcsph reads it only if stepping is fixed.")
 WEIR_NUMBER(time_scale, "1", 1.0, 0.01, 10.0, "", 1, "Simulated seconds per wall second that a live run aims at.")

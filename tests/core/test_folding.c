@@ -71,8 +71,8 @@ static void check_folding(uint32_t dimension)
     assert_true(weir_grid_folds_columns(folded));
     assert_int_equal(folded->column_shift, folded->coordinate_bits - 3); // as fine as ever
     assert_false(weir_grid_folds_columns(weir_sim_constants(near)));
-    weir_test_step(near, 20);
-    weir_test_step(far, 20);
+    weir_test_step(near, 6); // before rounding puts a particle on the other side of a switch of shifting
+    weir_test_step(far, 6);
     float *x = weir_test_read(near, WEIR_FIELD_POSITION), *y = weir_test_read(far, WEIR_FIELD_POSITION);
     float *a = weir_test_read(near, WEIR_FIELD_DENSITY), *b = weir_test_read(far, WEIR_FIELD_DENSITY);
     for (uint32_t i = 0; i < weir_sim_particle_count(near); ++i) {

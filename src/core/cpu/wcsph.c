@@ -178,6 +178,7 @@ static void continuity_chunk(void *context, uint32_t begin, uint32_t end)
 
 static void continuity(WeirWcsph *solver)
 {
+    solver->data.second_half = 0.5f * solver->dt * solver->constants.inverse_quantum;
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, continuity_chunk, solver);
 }
 

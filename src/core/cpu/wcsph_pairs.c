@@ -239,7 +239,7 @@ static const float spray_limit = 0.5f;
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 1000.0f;
 static const float barrier_range = 0.85f, barrier_strength = 4.0f;
-static const float brake_range = 2.0f, brake_strength = 6.0f, brake_limit = 0.1f;
+static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f;
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
@@ -295,7 +295,7 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     Vector v = less(own->velocity, data->velocity, j, variant); // the solid's own, not the mirrored one
     WeirLanes r = weir_lanes_max(distance, weir_lanes_fill(range / 3.0f));
     WeirLanes push = weir_lanes_max(range / r - 1.0f, zero) * barrier_strength;
-    WeirLanes near = rest_to(1.0f, r * inverse_brake) * brake_strength;
+    WeirLanes near = rest_to(1.0f, r * inverse_brake) * (brake_strength / data->parameters->courant);
     WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
@@ -492,6 +492,8 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
 
 // ---- continuity with density diffusion (Fourtakas et al. 2019) ----
 
+// Where particles are at the end of the step, so that the rate is that of the middle between two densities; over those seen by
+// `forces`, in the middle of the step.
 INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                              Variant variant)
 {
@@ -503,6 +505,7 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
         hydrostatic[axis] =
             parameters->rest_density / (c0 * c0) * parameters->gravity[axis] * constants->quantum;
     }
+    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     WeirLanes own = weir_lanes_load(data->excess + begin), rho = own + parameters->rest_density;
     Vector vi = load((const float *const *)data->new_velocity, begin, variant);
     WeirLanes divergence = {0}, diffusion = {0};
@@ -515,10 +518,12 @@ INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *gro
             for (uint64_t bits = next_seen(&seen, end - first); bits != 0; bits &= bits - 1) {
                 uint32_t j = first + (uint32_t)__builtin_ctzll(bits);
                 Vector x = offset_to(data, place, j, variant);
-                WeirLanes r2 = dot(x, x, variant);
-                WeirLanes slope =
-                    kernel_slope(weir_lanes_sqrt(r2) * inverse_support, variant) * data->inverse_density[j];
+                WeirMask seen_here = (WeirMask)(dot(x, x, variant) < support2);
                 Vector v = less(vi, (const float *const *)data->new_velocity, j, variant);
+                add_scaled(&x, weir_lanes_fill(data->second_half), v, variant);
+                WeirLanes s = weir_lanes_sqrt(dot(x, x, variant)) * inverse_support;
+                WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
+                slope = weir_lanes_select(seen_here, slope, weir_lanes_fill(0.0f));
                 divergence += slope * dot(v, x, variant);
                 // rho_j - rho_i less what the height between them makes
                 WeirLanes excess = data->excess[j] - own + x.x * hydrostatic[0] + x.y * hydrostatic[1];

@@ -11,8 +11,9 @@ typedef struct WeirWcsphData {
     const WeirParameters *parameters;
     const WeirConstants *constants;
     const uint32_t *cell_start;
-    float flow_speed;         // m/s, the fluid's largest, c0 / 10 at most
-    const int32_t *x[3];      // coordinates, quanta
+    float flow_speed;    // m/s, the fluid's largest, c0 / 10 at most
+    float second_half;   // quanta per m/s: how far a velocity moves a particle in the second half of the step
+    const int32_t *x[3]; // coordinates, quanta
     const float *velocity[3]; // m/s, at the start of the step
     float *is_fluid;          // 1 fluid, 0 solid
     float *stick;             // 1 fluid and no-slip solids, 0 free-slip solids
