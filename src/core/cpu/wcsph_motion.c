@@ -56,37 +56,31 @@ static inline WeirMask is_outside(const WeirConstants *constants, const WeirMask
     return outside;
 }
 
-// Which of the particles are in the box of a group of drains?
-static inline WeirMask is_near_drain(const WeirWcsph *solver, const WeirMask x[3])
+static inline WeirMask in_box(const WeirDrain *box, const WeirLanes place[3], uint32_t dimension)
 {
-    const WeirConstants *constants = &solver->constants;
-    WeirMask near = {0};
-    for (uint32_t n = 0; n < solver->world.drain_group_count; ++n) {
-        const WeirDrain *group = &solver->world.drain_groups[n];
-        WeirMask inside = ~(WeirMask){0};
-        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            WeirLanes place =
-                constants->origin[axis] + __builtin_convertvector(x[axis], WeirLanes) * constants->quantum;
-            inside &= (WeirMask)(place >= group->min[axis]) & (WeirMask)(place <= group->max[axis]);
-        }
-        near |= inside;
-    }
-    return near;
+    WeirMask inside = ~(WeirMask){0};
+    for (uint32_t axis = 0; axis < dimension; ++axis)
+        inside &= (WeirMask)(place[axis] >= box->min[axis]) & (WeirMask)(place[axis] <= box->max[axis]);
+    return inside;
 }
 
-static bool is_drained(const WeirWcsph *solver, uint32_t i)
+// Which particles are in a drain? Most are in no group's box.
+static inline WeirMask is_drained(const WeirWcsph *solver, const WeirMask x[3])
 {
+    const WeirWorld *world = &solver->world;
     const WeirConstants *constants = &solver->constants;
-    for (uint32_t n = 0; n < solver->world.drain_count; ++n) {
-        const WeirDrain *drain = &solver->world.drains[n];
-        bool inside = true;
-        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            float place = constants->origin[axis] + (float)solver->state.x[axis][i] * constants->quantum;
-            inside = inside && place >= drain->min[axis] && place <= drain->max[axis];
-        }
-        if (inside) return true;
+    WeirMask drained = {0};
+    WeirLanes place[3];
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        place[axis] =
+            constants->origin[axis] + __builtin_convertvector(x[axis], WeirLanes) * constants->quantum;
+    for (uint32_t group = 0; group < world->drain_group_count; ++group) {
+        if (!weir_mask_any(in_box(&world->drain_groups[group], place, constants->dimension))) continue;
+        uint32_t first = group * WEIR_DRAIN_GROUP, end = first + WEIR_DRAIN_GROUP;
+        for (uint32_t n = first; n < end && n < world->drain_count; ++n)
+            drained |= in_box(&world->drains[n], place, constants->dimension);
     }
-    return false;
+    return drained;
 }
 
 // An inlet's particle becomes free where it has passed the nozzle.
@@ -108,7 +102,7 @@ typedef struct Drift {
 } Drift;
 
 // What leaves the fluid or enters it: few particles, one by one.
-static void leave_or_enter(Drift *drift, uint32_t i, bool near_drain, bool outside)
+static void leave_or_enter(Drift *drift, uint32_t i, bool drained, bool outside)
 {
     WeirWcsph *solver = drift->solver;
     uint32_t *group = &solver->state.group[i];
@@ -116,7 +110,6 @@ static void leave_or_enter(Drift *drift, uint32_t i, bool near_drain, bool outsi
         if (has_passed(solver, i)) *group = WEIR_GROUP_FLUID;
         return;
     }
-    bool drained = near_drain && is_drained(solver, i);
     if (!drained && !outside) return;
     *group = WEIR_GROUP_EMPTY;
     atomic_fetch_add_explicit(drained ? &drift->drained : &drift->lost, 1, memory_order_relaxed);
@@ -142,11 +135,11 @@ static void drift_chunk(void *context, uint32_t begin, uint32_t end)
         WeirLanes later = excess + half * weir_lanes_load(state->rate + i);
         weir_lanes_store(state->excess + i, weir_lanes_select(fluid, later, excess));
         WeirMask outside = is_outside(constants, x) & fluid;
-        WeirMask near_drain = is_near_drain(solver, x) & fluid;
-        WeirMask special = outside | near_drain | (fluid & ~free_lanes(state->group, i, end));
+        WeirMask drained = is_drained(solver, x) & fluid;
+        WeirMask special = outside | drained | (fluid & ~free_lanes(state->group, i, end));
         if (!weir_mask_any(special)) continue;
         for (uint32_t lane = 0; lane < WEIR_LANES; ++lane) {
-            if (special[lane]) leave_or_enter(drift, i + lane, near_drain[lane], outside[lane]);
+            if (special[lane]) leave_or_enter(drift, i + lane, drained[lane], outside[lane]);
         }
     }
 }
