@@ -1,5 +1,5 @@
 // Layers of new particles, one support radius upstream of their nozzle, in the empty slots of the lowest ids. One look
-// for slots serves all layers that are due, in order; a layer that finds too few waits, whole. One workgroup.
+// for slots serves all layers of a step, in order; a layer that finds too few waits, whole. One workgroup.
 //
 // in:  vacancy, nozzle (places of birth), schedule, control
 // out: coordinate, motion, vacancy, schedule, control
@@ -18,9 +18,25 @@ var<workgroup> sums: array<u32, WORKGROUP_SIZE>;
 var<workgroup> earliest: array<vec2u, WORKGROUP_SIZE>;
 var<workgroup> shared_count: u32;
 
-fn is_due(n: u32) -> bool {
+// For half a spacing of flow: so much layers may be early where another one is due, and are put off if they must wait.
+fn share_of(n: u32) -> vec2u {
+    return ticks_of(min(0.5 * parameters.particle_spacing / emitters[n].speed, 1000.0));
+}
+
+fn takes_part(n: u32) -> bool {
+    let due = schedule[n].xy;
+    let stop = schedule[n].zw;
     let time = middle_of_step();
-    return !is_before(time, schedule[n].xy) && !is_before(schedule[n].zw, time);
+    return !is_before(add_ticks(time, share_of(n)), due) && !is_before(stop, due) && !is_before(stop, time);
+}
+
+// How far a layer of emitter n has come since it was due, m; negative where it is early.
+fn way_since_due(n: u32) -> f32 {
+    let due = schedule[n].xy;
+    let time = middle_of_step();
+    let early = is_before(time, due);
+    let ticks = subtract_ticks(select(time, due, early), select(due, time, early));
+    return select(1.0, -1.0, early) * emitters[n].speed * seconds_of(ticks);
 }
 
 // sums[k]: the sum of the threads' values up to thread k (Hillis and Steele 1986).
@@ -78,31 +94,27 @@ fn bear(k: u32) {
     }
     let i = vacancy[first_found() + k];
     let speed = emitters[n].speed;
-    let late = speed * seconds_of(subtract_ticks(middle_of_step(), schedule[n].xy));
-    let way = select(0.0, late, late < parameters.particle_spacing); // 0: it waited
+    let late = way_since_due(n);
+    let way = select(0.0, late, late < parameters.particle_spacing); // 0: it is very late
     let direction = vector_of(emitters[n].direction);
     let born = place_of(nozzle[emitters[n].point_first + k - layers[n]]) + quanta_of(way * direction);
     coordinate[i] = vec4i(wide_place(born), i32(GROUP_INLET + n));
     motion[i] = vec4f(wide(speed * direction), 0.0);
 }
 
-// When emitter n may have its next layer, after the ones that are due now.
+// Plans emitter n's next layer; returns when it is due.
 fn plan(n: u32) -> vec2u {
     let now = middle_of_step();
-    if is_before(schedule[n].zw, now) {
-        return NEVER;
+    var due = schedule[n].xy;
+    if layers[n + 1u] > layers[n] {
+        let spacing = parameters.particle_spacing;
+        let last = select(now, due, way_since_due(n) < spacing);
+        due = add_ticks(last, ticks_of(min(spacing / emitters[n].speed, 2000.0)));
+    } else if takes_part(n) {
+        due = add_ticks(due, share_of(n));
     }
-    if layers[n + 1u] == layers[n] {
-        // Slots only become free where fluid can leave.
-        return select(schedule[n].xy, NEVER, is_due(n) && !CAN_EMPTY);
-    }
-    let spacing = parameters.particle_spacing;
-    let speed = emitters[n].speed;
-    let late = speed * seconds_of(subtract_ticks(now, schedule[n].xy));
-    let last = select(now, schedule[n].xy, late < spacing);
-    let next = add_ticks(last, ticks_of(min(spacing / speed, 2000.0)));
-    schedule[n] = vec4u(next, schedule[n].zw);
-    return select(next, NEVER, is_before(schedule[n].zw, next));
+    schedule[n] = vec4u(due, schedule[n].zw);
+    return select(due, NEVER, is_before(schedule[n].zw, due) || is_before(schedule[n].zw, now));
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -115,7 +127,7 @@ fn emit(@builtin(local_invocation_index) local: u32) {
     }
     var own = 0u;
     for (var n = local; n < EMITTER_COUNT; n += WORKGROUP_SIZE) {
-        layers[n] = select(0u, emitters[n].point_count, is_due(n));
+        layers[n] = select(0u, emitters[n].point_count, takes_part(n));
         own += layers[n];
     }
     sum_up(local, own);

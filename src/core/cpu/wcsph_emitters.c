@@ -10,12 +10,33 @@ static double travel_of(const WeirWcsph *solver, uint32_t n, double time)
     return emitter->speed * (time - emitter->start);
 }
 
+// Particles that appear must be sorted in, so emitters share the steps in which they do: with a layer that is due come
+// those that will be within half a spacing of flow, and a layer that finds no slots is put off by as much.
+static double share_of(const WeirWcsph *solver)
+{
+    return 0.5 * (double)solver->parameters.particle_spacing;
+}
+
 // One layer per spacing of flow.
 static bool is_due(const WeirWcsph *solver, uint32_t n, double time)
 {
     const WeirEmitter *emitter = &solver->world.emitters[n];
-    return time >= emitter->start && time <= emitter->stop &&
-           travel_of(solver, n, time) >= solver->emitters[n].next_travel;
+    return time <= emitter->stop && travel_of(solver, n, time) >= solver->emitters[n].next_travel;
+}
+
+static bool any_is_due(const WeirWcsph *solver, double time)
+{
+    for (uint32_t n = 0; n < solver->world.emitter_count; ++n)
+        if (is_due(solver, n, time)) return true;
+    return false;
+}
+
+static bool takes_part(const WeirWcsph *solver, uint32_t n, double time)
+{
+    const WeirEmitter *emitter = &solver->world.emitters[n];
+    double due = solver->emitters[n].next_travel;
+    return time <= emitter->stop && due <= travel_of(solver, n, emitter->stop) &&
+           travel_of(solver, n, time) >= due - share_of(solver);
 }
 
 // Leaves the places of the `wanted` empty slots of the lowest ids in solver->vacancy, by id; returns how many there are.
@@ -55,24 +76,28 @@ static void bear_layer(WeirWcsph *solver, uint32_t n, double time, const uint32_
 {
     double spacing = solver->parameters.particle_spacing, travel = travel_of(solver, n, time);
     double *due = &solver->emitters[n].next_travel;
-    double way = travel - *due < spacing ? travel - *due : 0.0; // 0: it waited
+    double way = travel - *due < spacing ? travel - *due : 0.0; // 0: it is very late; below: early
     for (uint32_t k = 0; k < solver->world.emitters[n].point_count; ++k) bear(solver, n, k, way, places[k]);
     *due = travel - way + spacing;
 }
 
-// One look for empty slots serves all layers that are due, in order. A layer that finds too few waits, whole.
+// One look for empty slots serves all layers of a step, in order. A layer that finds too few waits, whole, and leaves them to the next.
 void weir_wcsph_emit(WeirWcsph *solver)
 {
     const WeirWorld *world = &solver->world;
     double time = solver->clock.time + 0.5 * solver->dt;
     uint32_t wanted = 0, taken = 0;
+    if (!any_is_due(solver, time)) return;
     for (uint32_t n = 0; n < world->emitter_count; ++n)
-        wanted += is_due(solver, n, time) ? world->emitters[n].point_count : 0;
-    if (wanted == 0) return;
+        wanted += takes_part(solver, n, time) ? world->emitters[n].point_count : 0;
     uint32_t found = find_slots(solver, wanted);
     for (uint32_t n = 0; n < world->emitter_count; ++n) {
         uint32_t count = world->emitters[n].point_count;
-        if (!is_due(solver, n, time) || count > found - taken) continue;
+        if (!takes_part(solver, n, time)) continue;
+        if (count > found - taken) {
+            solver->emitters[n].next_travel += share_of(solver);
+            continue;
+        }
         bear_layer(solver, n, time, solver->vacancy + taken);
         taken += count;
     }
