@@ -157,7 +157,7 @@ static void add_far_particle(WeirScene *scene, const Shape *shape)
     weir_scene_add_box(scene, min, max, (double[3]){-3.0, 0.0, 0.0});
 }
 
-// Nozzles of four spacings over a pool, eight apart, blowing down.
+// Nozzles of four spacings over a pool, eight apart, blowing down; no two have their layers at the same time.
 static void add_emitters(WeirScene *scene, const Shape *shape, uint32_t count)
 {
     bool deep = weir_scene_dimension(scene) == 3;
@@ -174,6 +174,8 @@ static void add_emitters(WeirScene *scene, const Shape *shape, uint32_t count)
         weir_scene_set_number(scene, path, 4.0 * spacing);
         snprintf(path, sizeof path, "emitters[%u].speed", n);
         weir_scene_set_number(scene, path, 1.0);
+        snprintf(path, sizeof path, "emitters[%u].start", n);
+        weir_scene_set_number(scene, path, fmod(0.618 * n, 1.0) * spacing);
         snprintf(path, sizeof path, "emitters[%u].capacity", n);
         weir_scene_set_number(scene, path, 200.0);
     }
