@@ -24,13 +24,15 @@ fn density(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
     let support_squared = parameters.support_radius * parameters.support_radius;
     var sum = 0.0;
     for (var row = rows.x; row <= rows.y; row++) {
-        let run = grid_run(position, own_row, row);
-        let end = cell_start[run.y];
-        for (var j = cell_start[run.x]; j < end; j++) {
-            let offset = position - sorted_position[j];
-            let r_squared = dot(offset, offset);
-            if r_squared < support_squared {
-                sum += density_kernel(r_squared);
+        for (var segment = 0u; segment < SEGMENTS; segment++) {
+            let run = grid_run(position, own_row, row, segment);
+            let end = cell_start[run.y];
+            for (var j = cell_start[run.x]; j < end; j++) {
+                let offset = position - sorted_position[j];
+                let r_squared = dot(offset, offset);
+                if r_squared < support_squared {
+                    sum += density_kernel(r_squared);
+                }
             }
         }
     }

@@ -25,13 +25,15 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     let support_squared = parameters.support_radius * parameters.support_radius;
     var sums = PairSums();
     for (var row = rows.x; row <= rows.y; row++) {
-        let run = grid_run(position, own_row, row);
-        let end = cell_start[run.y];
-        for (var j = cell_start[run.x]; j < end; j++) {
-            let offset = position - sorted_position[j];
-            let r_squared = dot(offset, offset);
-            if r_squared < support_squared {
-                add_pair(&sums, own, flow[j], offset, r_squared);
+        for (var segment = 0u; segment < SEGMENTS; segment++) {
+            let run = grid_run(position, own_row, row, segment);
+            let end = cell_start[run.y];
+            for (var j = cell_start[run.x]; j < end; j++) {
+                let offset = position - sorted_position[j];
+                let r_squared = dot(offset, offset);
+                if r_squared < support_squared {
+                    add_pair(&sums, own, flow[j], offset, r_squared);
+                }
             }
         }
     }

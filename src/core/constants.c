@@ -7,22 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3])
-{
-    double width = domain_max[0] - domain_min[0], height = domain_max[1] - domain_min[1];
-    double cell_height = constants->search_radius, cell_width = cell_height / WEIR_CELLS_PER_RADIUS;
-    double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0); // 32-bit indices
-    while (ceil(width / cell_width) * ceil(height / cell_height) > limit) {
-        cell_width *= 2.0;
-        if (cell_width > cell_height) cell_height = cell_width;
-    }
-    constants->cell_columns = (uint32_t)ceil(width / cell_width);
-    constants->cell_rows = (uint32_t)ceil(height / cell_height);
-    constants->cell_count = constants->cell_columns * constants->cell_rows;
-    constants->inverse_cell_width = (float)(1.0 / cell_width);
-    constants->inverse_cell_height = (float)(1.0 / cell_height);
-}
-
 void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool)
 {
     constants->tool_kind = tool ? (uint32_t)tool->kind : WEIR_TOOL_NONE;
@@ -31,6 +15,84 @@ void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool)
     constants->tool_strength = tool->strength;
     memcpy(constants->tool_position, tool->position, sizeof tool->position);
     memcpy(constants->tool_velocity, tool->velocity, sizeof tool->velocity);
+}
+
+// ---- The grid ----
+
+// What a folded grid should hold along each axis: the longest piece of fluid and a quarter of it, in units of `unit` m.
+static void longest_pieces(const WeirScene *scene, double unit, double length[3])
+{
+    length[0] = length[1] = length[2] = 0.0;
+    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
+        double low[3], high[3];
+        weir_shape_bounds(&scene->fluid[n].shape, scene->dimension, low, high);
+        for (uint32_t axis = 0; axis < scene->dimension; ++axis)
+            length[axis] = fmax(length[axis], 1.25 * (high[axis] - low[axis]) / unit);
+    }
+}
+
+// Fits a grid to the domain: cells per axis, cell sizes in a unit of length.
+typedef struct Fit {
+    double extent[3]; // of the domain
+    double least[3];  // a folded grid reaches no less far
+    double cell[3];   // size of a cell: as wished, then as it became
+    double domain[3]; // cells of the domain
+    double lines[3];  // and of the grid
+} Fit;
+
+// To at most 4 cells per particle, so that memory is bound to them: first folded where it is longest (grid.h), then with
+// larger cells.
+static void fit_grid(Fit *fit, uint32_t particle_count)
+{
+    static const double fewest[3] = {WEIR_LEAST_COLUMNS, WEIR_LEAST_ROWS, WEIR_LEAST_ROWS};
+    double limit = fmin(fmax(65536.0, 4.0 * particle_count), 1073741824.0); // 32-bit indices
+    double *lines = fit->lines, *cell = fit->cell;
+    bool grown = true;
+    for (;;) {
+        int longest = -1;
+        double length = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (grown) lines[axis] = fit->domain[axis] = floor(fit->extent[axis] / cell[axis]) + 1.0;
+            double less = 0.75 * lines[axis], own = lines[axis] * cell[axis];
+            if (less < fewest[axis] || less * cell[axis] < fit->least[axis] || own <= length) continue;
+            longest = axis;
+            length = own;
+        }
+        if (lines[0] * lines[1] * lines[2] <= limit) return;
+        grown = longest < 0;
+        if (!grown) {
+            lines[longest] = floor(0.75 * lines[longest]);
+            continue;
+        }
+        cell[0] *= 2.0;
+        if (cell[0] > cell[1]) cell[1] = cell[2] = cell[0];
+    }
+}
+
+static void take_grid(WeirConstants *constants, const Fit *fit)
+{
+    constants->cell_columns = (uint32_t)fit->lines[0];
+    constants->cell_rows = (uint32_t)fit->lines[1];
+    constants->cell_layers = (uint32_t)fit->lines[2];
+    constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
+    constants->domain_columns = (uint32_t)fit->domain[0];
+    constants->domain_rows = (uint32_t)fit->domain[1];
+}
+
+// Cells of `mueller`.
+static void make_cells(WeirConstants *constants, const WeirScene *scene)
+{
+    double height = constants->search_radius, width = height / WEIR_CELLS_PER_RADIUS;
+    Fit fit = {.cell = {width, height, height}};
+    for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
+        fit.extent[axis] = scene->domain_max[axis] - scene->domain_min[axis];
+        fit.cell[axis] = fmax(fit.cell[axis], fit.extent[axis] / 1073741824.0); // lines are 32-bit too
+    }
+    longest_pieces(scene, 1.0, fit.least);
+    fit_grid(&fit, constants->particle_count);
+    take_grid(constants, &fit);
+    constants->inverse_cell_width = (float)(1.0 / fit.cell[0]);
+    constants->inverse_cell_height = (float)(1.0 / fit.cell[1]);
 }
 
 // Constants of the passes of `mueller`.
@@ -51,55 +113,15 @@ static void make_mueller(WeirConstants *constants, const WeirScene *scene, const
         (float)(mass * parameters->viscosity * weir_kernel_viscosity_laplacian(0.0, h) / h);
     constants->search_radius = (float)(h * search_margin);
     constants->speed_limit = (float)(0.5 * h / parameters->time_step);
-    weir_grid_make(constants, scene->domain_min, scene->domain_max);
-}
-
-// What a folded grid should hold along each axis, in quanta: the longest piece of fluid and a quarter of it.
-static void longest_pieces(const WeirScene *scene, double quantum, double length[3])
-{
-    length[0] = length[1] = length[2] = 0.0;
-    for (uint32_t n = 0; n < scene->fluid_count; ++n) {
-        double low[3], high[3];
-        weir_shape_bounds(&scene->fluid[n].shape, scene->dimension, low, high);
-        for (uint32_t axis = 0; axis < scene->dimension; ++axis)
-            length[axis] = fmax(length[axis], 1.25 * (high[axis] - low[axis]) / quantum);
-    }
-}
-
-// A grid of `lines` cells along each axis, all that the domain has, to at most `limit` cells: first folded where it is
-// longest, but to no less than `least` quanta (grid.h), then with larger cells. `shift`: sizes of a cell, in powers of
-// two quanta.
-static void fit_grid(const double extent[3], const double least[3], double limit, uint32_t shift[3],
-                     double lines[3])
-{
-    static const double fewest[3] = {WEIR_LEAST_COLUMNS, WEIR_LEAST_ROWS, WEIR_LEAST_ROWS};
-    bool grown = true;
-    for (;;) {
-        int longest = -1;
-        double length = 0.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            double cell = (double)(1u << shift[axis]);
-            if (grown) lines[axis] = floor(extent[axis] / cell) + 1.0;
-            double less = 0.75 * lines[axis], own = lines[axis] * cell;
-            if (less < fewest[axis] || less * cell < least[axis] || own <= length) continue;
-            longest = axis;
-            length = own;
-        }
-        if (lines[0] * lines[1] * lines[2] <= limit) return;
-        grown = longest < 0;
-        if (!grown) {
-            lines[longest] = floor(0.75 * lines[longest]);
-        } else if (++shift[0] > shift[1]) {
-            shift[1] = shift[2] = shift[0];
-        }
-    }
+    make_cells(constants, scene);
 }
 
 // Coordinates and cells of `wcsph`. The grid reaches two support radii beyond the domain, for walls; not along
 // periodic axes. Cells are one support radius high and deep and an eighth as wide, at most 4 per particle.
 static void make_coordinates(WeirConstants *constants, const WeirScene *scene, double support_radius)
 {
-    double extent[3] = {0.0, 0.0, 0.0}, lines[3], longest = 0.0;
+    Fit fit = {.cell = {0.0}};
+    double *extent = fit.extent, longest = 0.0;
     for (uint32_t axis = 0; axis < scene->dimension; ++axis) {
         double margin = scene->periodic[axis] ? 0.0 : 2.0 * support_radius;
         constants->origin[axis] = (float)(scene->domain_min[axis] - margin);
@@ -120,19 +142,15 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
         *periods[axis] = scene->periodic[axis] ? (uint32_t)floor(period / quantum + 0.5) : 0;
         extent[axis] /= quantum;
     }
-    double least[3];
-    longest_pieces(scene, quantum, least);
+    longest_pieces(scene, quantum, fit.least);
     for (int axis = 0; axis < 3; ++axis)
-        if (scene->periodic[axis]) least[axis] = INFINITY;
-    uint32_t shift[3] = {bits - 3, bits, bits};
-    double limit = fmin(fmax(65536.0, 4.0 * constants->particle_count), 1073741824.0);
-    fit_grid(extent, least, limit, shift, lines);
-    constants->cell_columns = (uint32_t)lines[0];
-    constants->cell_rows = (uint32_t)lines[1];
-    constants->cell_layers = (uint32_t)lines[2];
-    constants->column_shift = shift[0];
-    constants->row_shift = shift[1];
-    constants->cell_count = constants->cell_columns * constants->cell_rows * constants->cell_layers;
+        if (scene->periodic[axis]) fit.least[axis] = INFINITY;
+    fit.cell[0] = (double)(1u << (bits - 3));
+    fit.cell[1] = fit.cell[2] = (double)(1u << bits);
+    fit_grid(&fit, constants->particle_count);
+    take_grid(constants, &fit);
+    constants->column_shift = (uint32_t)ilogb(fit.cell[0]);
+    constants->row_shift = (uint32_t)ilogb(fit.cell[1]);
 }
 
 // Sites of an endless lattice: those of a box of cells, all of them or every other one as on a chessboard. The resting

@@ -17,58 +17,58 @@ enum { WEIR_CELLS_PER_RADIUS = 4 };
 void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,
                          uint32_t particle_count, const WeirTool *tool);
 
-// `mueller`: fills cell counts and inverse cell sizes. Cells grow, first wider, then higher, where they would
-// outnumber the particles 4 to 1: memory stays bound to the particles, and the search stays
-// correct, only less selective.
-void weir_grid_make(WeirConstants *constants, const double domain_min[3], const double domain_max[3]);
-
-// Cell column and row of a coordinate, clamped into the grid.
-static inline uint32_t weir_grid_clamp(float cells, uint32_t count)
-{
-    // NaN compares false and lands in cell 0.
-    if (!(cells > 0.0f)) return 0;
-    return cells < (float)count ? (uint32_t)cells : count - 1;
-}
-
-static inline uint32_t weir_grid_column(const WeirConstants *constants, float x)
-{
-    return weir_grid_clamp((x - constants->domain_min[0]) * constants->inverse_cell_width,
-                           constants->cell_columns);
-}
-
-static inline uint32_t weir_grid_row(const WeirConstants *constants, float y)
-{
-    return weir_grid_clamp((y - constants->domain_min[1]) * constants->inverse_cell_height,
-                           constants->cell_rows);
-}
-
-// `wcsph`: positions are whole numbers of quanta (32-bit, from constants.origin), so that differences are exact
-// however large the domain; cells are powers of two of them. A line is a column, row or layer of cells. Where the domain
-// has more lines than the grid, it is folded: lines that lie the grid's count apart share their cells. So what is
-// far away may be a candidate, but never a neighbour, and memory is bound to the particles wherever they are.
-static inline uint32_t weir_grid_line(int32_t coordinate, uint32_t shift)
-{
-    return coordinate < 0 ? 0 : (uint32_t)coordinate >> shift;
-}
-
+// A line is a column, row or layer of cells. Where the domain has more lines than the grid, it is folded: lines that lie
+// the grid's count apart share their cells. So what is far away may be a candidate, but never a neighbour, and memory
+// is bound to the particles wherever they are.
 static inline uint32_t weir_grid_fold(uint32_t line, uint32_t count)
 {
     return line < count ? line : line % count;
 }
 
-static inline uint32_t weir_grid_cell(int32_t coordinate, uint32_t shift, uint32_t count)
-{
-    return weir_grid_fold(weir_grid_line(coordinate, shift), count);
-}
-
 // Folded grids have at least so many columns, and rows and layers: more than any search spans.
 enum { WEIR_LEAST_COLUMNS = 64, WEIR_LEAST_ROWS = 8 };
 
-// Does the domain have more columns than the grid? (Folding takes a quarter of them at least.)
+// Does the domain have more columns than the grid?
 static inline bool weir_grid_folds_columns(const WeirConstants *constants)
 {
-    float end = constants->domain_max[0] + 2.0f * constants->search_radius;
-    float extent = (end - constants->origin[0]) * constants->inverse_quantum;
-    float columns = extent / (float)(1u << constants->column_shift);
-    return constants->period_x == 0 && columns > 1.1f * (float)constants->cell_columns;
+    return constants->domain_columns > constants->cell_columns;
+}
+
+// `mueller`: line of a coordinate, clamped into the domain.
+static inline uint32_t weir_grid_clamp(float line, uint32_t count)
+{
+    // NaN compares false and lands in line 0.
+    if (!(line > 0.0f)) return 0;
+    return line < (float)count ? (uint32_t)line : count - 1;
+}
+
+static inline uint32_t weir_grid_column(const WeirConstants *constants, float x)
+{
+    return weir_grid_clamp((x - constants->domain_min[0]) * constants->inverse_cell_width,
+                           constants->domain_columns);
+}
+
+static inline uint32_t weir_grid_row(const WeirConstants *constants, float y)
+{
+    return weir_grid_clamp((y - constants->domain_min[1]) * constants->inverse_cell_height,
+                           constants->domain_rows);
+}
+
+static inline uint32_t weir_grid_cell_at(const WeirConstants *constants, float x, float y)
+{
+    uint32_t row = weir_grid_fold(weir_grid_row(constants, y), constants->cell_rows);
+    return row * constants->cell_columns +
+           weir_grid_fold(weir_grid_column(constants, x), constants->cell_columns);
+}
+
+// `wcsph`: positions are whole numbers of quanta (32-bit, from constants.origin), so that differences are exact
+// however large the domain; cells are powers of two of them.
+static inline uint32_t weir_grid_line(int32_t coordinate, uint32_t shift)
+{
+    return coordinate < 0 ? 0 : (uint32_t)coordinate >> shift;
+}
+
+static inline uint32_t weir_grid_cell(int32_t coordinate, uint32_t shift, uint32_t count)
+{
+    return weir_grid_fold(weir_grid_line(coordinate, shift), count);
 }

@@ -11,9 +11,9 @@ enum { TABLE_SIZE = 1 << 16 };
 
 // The grid of either method, in metres.
 typedef struct Rows {
-    uint32_t dimension, cells[3];
+    uint32_t dimension, cells[3], lines[3]; // lines: `mueller`, of the domain
     double origin[3], inverse_cell[3], radius;
-    bool folded; // wcsph
+    bool quanta; // wcsph
 } Rows;
 
 // Columns first to last of one row, as particle `i` visits them.
@@ -35,8 +35,9 @@ static Rows make_rows(const WeirParameters *parameters, const WeirConstants *con
     bool quanta = constants->coordinate_bits > 0;
     Rows rows = {.dimension = constants->dimension,
                  .cells = {constants->cell_columns, constants->cell_rows, constants->cell_layers},
+                 .lines = {constants->domain_columns, constants->domain_rows, 1},
                  .radius = parameters->support_radius,
-                 .folded = quanta};
+                 .quanta = quanta};
     const double inverse[3] = {constants->inverse_cell_width, constants->inverse_cell_height, 0.0};
     for (int axis = 0; axis < 3; ++axis) {
         uint32_t shift = axis == 0 ? constants->column_shift : constants->row_shift;
@@ -51,7 +52,7 @@ static Rows make_rows(const WeirParameters *parameters, const WeirConstants *con
 static uint32_t line_at(const Rows *rows, int axis, double place)
 {
     double line = (place - rows->origin[axis]) * rows->inverse_cell[axis];
-    if (!rows->folded) return weir_grid_clamp((float)line, rows->cells[axis]);
+    if (!rows->quanta) return weir_grid_clamp((float)line, rows->lines[axis]);
     return line > 0.0 ? (uint32_t)fmin(line, 4e9) : 0;
 }
 

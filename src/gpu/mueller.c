@@ -136,7 +136,7 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          solver->constants.cell_count, constants->cell_count);
     char settings[WEIR_SETTINGS_LENGTH];
-    uint32_t needed = weir_mueller_settings(parameters, settings);
+    uint32_t needed = weir_mueller_settings(parameters, constants, settings);
     status = weir_passes_prepare(&solver->passes, settings, needed, solver->report, &base->message);
     if (status == WEIR_OK) weir_gpu_solver_configure(solver, parameters, constants);
     return status;

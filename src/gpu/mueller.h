@@ -52,7 +52,8 @@ extern const WeirMethodInfo weir_mueller_method;
 // Bytes of each buffer.
 void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL]);
 // WGSL constants that follow from the parameters, and the passes that they need, by bit.
-uint32_t weir_mueller_settings(const WeirParameters *parameters, char settings[WEIR_SETTINGS_LENGTH]);
+uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConstants *constants,
+                               char settings[WEIR_SETTINGS_LENGTH]);
 
 // What integrate leaves, as `struct Health` in shaders/common/fluid.wgsl.
 typedef struct WeirDeviceHealth {

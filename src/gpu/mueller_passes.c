@@ -1,4 +1,5 @@
 // The passes and buffers of `mueller`.
+#include "core/grid.h"
 #include "gpu/mueller.h"
 
 #include <stdio.h>
@@ -83,10 +84,12 @@ const WeirMethodInfo weir_mueller_method = {
     .parts = parts,
 };
 
-uint32_t weir_mueller_settings(const WeirParameters *parameters, char settings[WEIR_SETTINGS_LENGTH])
+uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConstants *constants,
+                               char settings[WEIR_SETTINGS_LENGTH])
 {
     bool tutorial = parameters->kernels == WEIR_KERNELS_TUTORIAL;
-    snprintf(settings, WEIR_SETTINGS_LENGTH, "const TUTORIAL_KERNELS = %s;\n", tutorial ? "true" : "false");
+    snprintf(settings, WEIR_SETTINGS_LENGTH, "const TUTORIAL_KERNELS = %s;\nconst FOLDED_X = %s;\n",
+             tutorial ? "true" : "false", weir_grid_folds_columns(constants) ? "true" : "false");
     uint32_t integrate = 1u << WEIR_MUELLER_INTEGRATE;
     uint32_t all_pairs = 1u << WEIR_MUELLER_DENSITY_ALL_PAIRS | 1u << WEIR_MUELLER_FORCES_ALL_PAIRS;
     if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | integrate;

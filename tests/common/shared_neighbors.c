@@ -185,6 +185,59 @@ static void support_beyond_domain(const WeirBackend *backend)
     check_set(&set, backend);
 }
 
+// A domain with more cells than the grid: clusters that share its cells with each other, some across its borders, and the
+// domain's far corner.
+static void clusters_in_a_folded_grid(const WeirBackend *backend)
+{
+    enum { CLUSTERS = 10, EACH = 30 };
+    WeirRandom random = {.state = 14};
+    PointSet set = {.count = CLUSTERS * EACH, .size = 40, .spacing = 0.05, .support = 0.11};
+    WeirScene *scene = weir_test_count_scene(set.count, set.size, set.spacing, set.support);
+    WeirSim *sim = weir_test_sim(scene, backend, 1);
+    const WeirConstants *constants = weir_sim_constants(sim);
+    assert_true(constants->domain_columns > constants->cell_columns);
+    assert_true(constants->domain_rows > constants->cell_rows);
+    assert_true(constants->cell_count <= 65536);
+    double width = constants->cell_columns / (double)constants->inverse_cell_width;
+    double height = constants->cell_rows / (double)constants->inverse_cell_height;
+    for (uint32_t n = 0; n < CLUSTERS; ++n) {
+        double x = 0.3 + (n % 2 ? width : 0.0), y = 0.2 + (n % 3 ? height : 0.0);
+        if (n >= 4 && n < 9) x = width - 0.1 * n / 3; // across the border
+        if (n >= 6 && n < 9) y = height - 0.05 * (n - 5);
+        if (n == 9) x = y = set.size - 0.3;
+        for (uint32_t k = n * EACH; k < (n + 1) * EACH; ++k) {
+            set.position[2 * k] = (float)(x + weir_random_range(&random, 0, 0.3));
+            set.position[2 * k + 1] = (float)(y + weir_random_range(&random, 0, 0.3));
+        }
+    }
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+    random_velocities(&set, &random);
+    check_set(&set, backend);
+}
+
+// A small block, alone or with one particle 50 m away: as many candidates.
+static void a_far_particle_costs_nothing(const WeirBackend *backend)
+{
+    double candidates[2];
+    for (int far = 0; far < 2; ++far) {
+        WeirScene *scene = weir_test_scene(0.05, 0.11, 0, far ? 60 : 3);
+        weir_test_box(scene, 0, 0, 1, 1);
+        if (far) weir_test_box(scene, 50, 50, 50.05, 50.05);
+        WeirSim *sim = weir_test_sim(scene, backend, 1);
+        WeirNeighborCount found;
+        WeirStatus status;
+        while ((status = weir_sim_count_neighbors(sim, 0, &found)) == WEIR_PENDING)
+            CHECK_SIM(sim, weir_sim_wait(sim), WEIR_OK);
+        CHECK_SIM(sim, status, WEIR_OK);
+        candidates[far] = found.candidates;
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+    assert_true(candidates[0] > 10);
+    CHECK_NEAR(candidates[1], candidates[0], 0.05 * candidates[0]);
+}
+
 static void one_particle(const WeirBackend *backend)
 {
     PointSet set = {.count = 1, .size = 1, .spacing = 0.05, .support = 0.11};
@@ -193,10 +246,16 @@ static void one_particle(const WeirBackend *backend)
 }
 
 static const WeirSharedTest tests[] = {
-    WEIR_SHARED_TEST(random_sets),           WEIR_SHARED_TEST(all_in_one_cell),
-    WEIR_SHARED_TEST(on_cell_borders),       WEIR_SHARED_TEST(beside_cell_borders),
-    WEIR_SHARED_TEST(at_domain_corners),     WEIR_SHARED_TEST(coincident_particles),
-    WEIR_SHARED_TEST(support_beyond_domain), WEIR_SHARED_TEST(one_particle),
+    WEIR_SHARED_TEST(random_sets),
+    WEIR_SHARED_TEST(all_in_one_cell),
+    WEIR_SHARED_TEST(on_cell_borders),
+    WEIR_SHARED_TEST(beside_cell_borders),
+    WEIR_SHARED_TEST(at_domain_corners),
+    WEIR_SHARED_TEST(coincident_particles),
+    WEIR_SHARED_TEST(support_beyond_domain),
+    WEIR_SHARED_TEST(one_particle),
+    WEIR_SHARED_TEST(clusters_in_a_folded_grid),
+    WEIR_SHARED_TEST(a_far_particle_costs_nothing),
 };
 extern const WeirSharedGroup weir_shared_neighbors;
 WEIR_SHARED_GROUP(neighbors, tests);

@@ -75,8 +75,7 @@ static Fixture *make_fixture(uint32_t kernels, uint32_t search)
         drawn[1][i] = (float)weir_random_range(&random, 0, size);
         drawn[2][i] = (float)weir_random_range(&random, -2, 2);
         drawn[3][i] = (float)weir_random_range(&random, -2, 2);
-        uint32_t cell = weir_grid_row(constants, drawn[1][i]) * constants->cell_columns +
-                        weir_grid_column(constants, drawn[0][i]);
+        uint32_t cell = weir_grid_cell_at(constants, drawn[0][i], drawn[1][i]);
         ++fixture->cell_start[cell + 1];
         keys[i] = (uint64_t)cell << 32 | i;
     }

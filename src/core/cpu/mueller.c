@@ -55,8 +55,7 @@ static void count_chunk(void *context, uint32_t begin, uint32_t end)
     const WeirConstants *constants = &solver->constants;
     bool alone = weir_pool_threads(solver->pool) == 1;
     for (uint32_t i = begin; i < end; ++i) {
-        solver->cells.cell[i] = weir_grid_row(constants, solver->state.y[i]) * constants->cell_columns +
-                                weir_grid_column(constants, solver->state.x[i]);
+        solver->cells.cell[i] = weir_grid_cell_at(constants, solver->state.x[i], solver->state.y[i]);
     }
     weir_cells_count(&solver->cells, begin, end, alone);
 }

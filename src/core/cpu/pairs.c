@@ -3,7 +3,7 @@
 // One vector holds WEIR_LANES particles i that are neighbours in the sorted order, so they share almost all
 // their candidates j: each candidate is broadcast to all lanes.
 //
-//   candidates j ->  . . . . . . . . . . . .      3 runs, one per cell row
+//   candidates j ->  . . . . . . . . . . . .      3 runs, one per cell row (more where the grid is folded)
 //   lanes i          [ i0 i1 i2 ... ]             one vector
 //
 // Every lane adds its candidates in the sorted order, and a candidate outside its support adds exactly 0. So
@@ -19,53 +19,68 @@
 #endif
 extern const WeirPairPasses WEIR_PAIR_PASSES;
 
-// Lanes of one vector and the runs of cells that hold all their neighbours.
-typedef struct Group {
-    uint32_t lanes;
-    uint32_t first_row, last_row, first_column, last_column;
-    bool all_pairs;
-} Group;
-
-// Takes particles from `begin` on, as long as they share a row and lie close enough that one run of
-// candidates serves them all.
-static Group make_group(const WeirPairData *data, uint32_t begin, uint32_t end)
-{
-    const WeirConstants *constants = data->constants;
-    Group group = {.lanes = 1, .all_pairs = data->parameters->search == WEIR_SEARCH_ALL_PAIRS};
-    uint32_t most = end - begin < WEIR_LANES ? end - begin : WEIR_LANES;
-    if (group.all_pairs) {
-        group.lanes = most;
-        return group;
-    }
-    float reach = constants->search_radius;
-    float low_x = data->x[begin], high_x = low_x, low_y = data->y[begin], high_y = low_y;
-    uint32_t row = weir_grid_row(constants, low_y);
-    while (group.lanes < most) {
-        float x = data->x[begin + group.lanes], y = data->y[begin + group.lanes];
-        if (weir_grid_row(constants, y) != row || x - low_x > 3.0f * reach) break;
-        low_x = x < low_x ? x : low_x;
-        high_x = x > high_x ? x : high_x;
-        low_y = y < low_y ? y : low_y;
-        high_y = y > high_y ? y : high_y;
-        ++group.lanes;
-    }
-    group.first_row = weir_grid_row(constants, low_y - reach);
-    group.last_row = weir_grid_row(constants, high_y + reach);
-    group.first_column = weir_grid_column(constants, low_x - reach);
-    group.last_column = weir_grid_column(constants, high_x + reach);
-    return group;
-}
-
-// Candidates of a group in one row of cells.
+// Candidates that lie side by side.
 typedef struct Run {
     uint32_t begin, end;
 } Run;
 
-static inline Run candidate_run(const WeirPairData *data, const Group *group, uint32_t row)
+// Lanes of one vector, and the runs that hold all their neighbours: one per row of cells, two where the grid is folded.
+enum { MAX_RUNS = 16 };
+typedef struct Group {
+    uint32_t lanes, run_count;
+    Run run[MAX_RUNS];
+} Group;
+
+static inline void add_run(Group *group, const uint32_t *start, uint32_t first, uint32_t end)
 {
-    if (group->all_pairs) return (Run){0, data->constants->particle_count};
-    const uint32_t *start = data->cell_start + row * data->constants->cell_columns;
-    return (Run){start[group->first_column], start[group->last_column + 1]};
+    Run run = {start[first], start[end]};
+    if (run.begin < run.end && group->run_count < MAX_RUNS) group->run[group->run_count++] = run;
+}
+
+static void find_runs(const WeirPairData *data, float low_x, float high_x, float low_y, float high_y,
+                      Group *group)
+{
+    const WeirConstants *constants = data->constants;
+    float reach = constants->search_radius;
+    uint32_t columns = constants->cell_columns, last_row = weir_grid_row(constants, high_y + reach);
+    uint32_t first = weir_grid_column(constants, low_x - reach);
+    uint32_t count = weir_grid_column(constants, high_x + reach) + 1 - first;
+    if (count > columns) count = columns;
+    first = weir_grid_fold(first, columns);
+    for (uint32_t row = weir_grid_row(constants, low_y - reach); row <= last_row; ++row) {
+        const uint32_t *start = data->cell_start + weir_grid_fold(row, constants->cell_rows) * columns;
+        uint32_t inside = first + count <= columns ? count : columns - first;
+        add_run(group, start, first, first + inside);
+        if (inside < count) add_run(group, start, 0, count - inside);
+    }
+}
+
+// Takes particles from `begin` on, as long as they share a row and lie close enough that one run of
+// candidates serves them all.
+static void make_group(const WeirPairData *data, uint32_t begin, uint32_t end, Group *group)
+{
+    const WeirConstants *constants = data->constants;
+    group->lanes = 1;
+    group->run_count = 0;
+    uint32_t most = end - begin < WEIR_LANES ? end - begin : WEIR_LANES;
+    if (data->parameters->search == WEIR_SEARCH_ALL_PAIRS) {
+        group->lanes = most;
+        group->run[group->run_count++] = (Run){0, constants->particle_count};
+        return;
+    }
+    float widest = 3.0f * constants->search_radius;
+    float low_x = data->x[begin], high_x = low_x, low_y = data->y[begin], high_y = low_y;
+    uint32_t row = weir_grid_row(constants, low_y);
+    while (group->lanes < most) {
+        float x = data->x[begin + group->lanes], y = data->y[begin + group->lanes];
+        if (weir_grid_row(constants, y) != row || x - low_x > widest || high_x - x > widest) break;
+        low_x = x < low_x ? x : low_x;
+        high_x = x > high_x ? x : high_x;
+        low_y = y < low_y ? y : low_y;
+        high_y = y > high_y ? y : high_y;
+        ++group->lanes;
+    }
+    find_runs(data, low_x, high_x, low_y, high_y, group);
 }
 
 // sum_j (h - r)^3, or sum_j (h^2 - r^2)^3 for the tutorial's kernel.
@@ -77,8 +92,8 @@ static inline __attribute__((always_inline)) WeirLanes sum_density(const WeirPai
     float h = data->parameters->support_radius;
     WeirLanes xi = weir_lanes_load(x + begin), yi = weir_lanes_load(y + begin);
     WeirLanes support = weir_lanes_fill(tutorial ? h * h : h), zero = {0}, sum = {0};
-    for (uint32_t row = group->first_row; row <= group->last_row; ++row) {
-        Run run = candidate_run(data, group, row);
+    for (uint32_t n = 0; n < group->run_count; ++n) {
+        Run run = group->run[n];
         for (uint32_t j = run.begin; j < run.end; ++j) {
             WeirLanes dx = xi - x[j], dy = yi - y[j];
             WeirLanes r2 = dx * dx + dy * dy;
@@ -108,7 +123,8 @@ static void density(const WeirPairData *data, uint32_t begin, uint32_t end)
 {
     bool tutorial = data->parameters->kernels == WEIR_KERNELS_TUTORIAL;
     for (uint32_t i = begin; i < end;) {
-        Group group = make_group(data, i, end);
+        Group group;
+        make_group(data, i, end, &group);
         WeirLanes sum = tutorial ? sum_density(data, &group, i, true) : sum_density(data, &group, i, false);
         for (uint32_t lane = 0; lane < group.lanes; ++lane) finish_density(data, i + lane, sum[lane]);
         i += group.lanes;
@@ -136,8 +152,8 @@ static inline __attribute__((always_inline)) Force sum_forces(const WeirPairData
     WeirLanes h = weir_lanes_fill(support), support2 = weir_lanes_fill(support * support), zero = {0};
     WeirLanes tiny = weir_lanes_fill(1e-24f); // m^2: keeps r = 0 from a division by zero; the force is 0 then
     Force force = {{0}, {0}, {0}, {0}};
-    for (uint32_t row = group->first_row; row <= group->last_row; ++row) {
-        Run run = candidate_run(data, group, row);
+    for (uint32_t n = 0; n < group->run_count; ++n) {
+        Run run = group->run[n];
         for (uint32_t j = run.begin; j < run.end; ++j) {
             WeirLanes dx = xi - x[j], dy = yi - y[j];
             WeirLanes r2 = dx * dx + dy * dy;
@@ -172,7 +188,8 @@ static void forces(const WeirPairData *data, uint32_t begin, uint32_t end)
 {
     bool tutorial = data->parameters->kernels == WEIR_KERNELS_TUTORIAL;
     for (uint32_t i = begin; i < end;) {
-        Group group = make_group(data, i, end);
+        Group group;
+        make_group(data, i, end, &group);
         Force force = tutorial ? sum_forces(data, &group, i, true) : sum_forces(data, &group, i, false);
         for (uint32_t lane = 0; lane < group.lanes; ++lane)
             finish_forces(data, i + lane, &force, lane, tutorial);
