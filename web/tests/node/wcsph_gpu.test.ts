@@ -30,6 +30,16 @@ const lively = {
   emitters: [{ center: [0.2, 0.55], direction: [0, -1], size: 0.15, speed: 2, capacity: 50 }],
   drains: [{ min: [0.3, 0], max: [0.4, 0.1] }],
 };
+// As many as a scene may have: what they take of buffers must be within WebGPU's limits.
+const places = Array.from({ length: 1024 }, (_, n) => [0.5 * (n % 32) + 0.25, 0.5 * Math.floor(n / 32) + 0.25] as const);
+const crowd = {
+  ...tank,
+  parameters: { particle_spacing: spacing, gravity: [0, 0] },
+  domain: { min: [0, 0], max: [16, 16], open: '-x +x -y +y' },
+  fluid: [box([0, 0], [spacing, spacing])],
+  emitters: places.map((center, n) => ({ center, direction: [0, -1], size: spacing, speed: 2, start: 1e-3 * (n % 9), capacity: 4 })),
+  drains: places.map(([x, y]) => ({ min: [x - 0.1, y - 0.2], max: [x + 0.1, y - 0.02] })),
+};
 const deep = {
   ...tank,
   dimension: 3,
@@ -63,4 +73,5 @@ async function follow(document: object, steps: number, tolerance: number): Promi
 
 test('2D: 40 steps of a tank follow the C solver', () => follow(tank, 40, 1e-3));
 test('2D: moving wall, body, emitter and drain', () => follow(lively, 40, 5e-3));
+test('2D: 1,024 emitters and drains', () => follow(crowd, 30, 5e-3));
 test('3D: 20 steps follow the C solver', () => follow(deep, 20, 1e-3));
