@@ -1,5 +1,6 @@
-// Bundles the TypeScript tests and runs them: npm run test:node. Needs the wasm build (cmake --preset wasm), or another
-// one whose folder WEIR_WASM_DIR names. WebGPU is Dawn in Node on a software adapter.
+// Bundles the TypeScript tests and runs them: npm run test:node; one file: node tests/node/run.mjs gpu.test.ts. Needs
+// the wasm build (cmake --preset wasm), or another one whose folder WEIR_WASM_DIR names. WebGPU is Dawn in Node on a
+// software adapter.
 import { build } from 'esbuild';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, rmSync } from 'node:fs';
@@ -15,9 +16,14 @@ if (!existsSync(join(wasm, 'apps/web/weir.wasm'))) {
   console.error(`${wasm} holds no build: run tools/build.sh wasm first`);
   process.exit(2);
 }
-const chosen = process.argv.slice(2).map((name) => basename(name));
 const tests = readdirSync(here).filter((name) => name.endsWith('.test.ts'));
-const entries = tests.filter((name) => chosen.length === 0 || chosen.includes(name));
+const chosen = process.argv.slice(2).map((name) => basename(name));
+const unknown = chosen.find((name) => !tests.includes(name)); // without files node --test would look for some itself
+if (unknown !== undefined) {
+  console.error(`'${unknown}' is no file of tests; there are: ${tests.join(' ')}`);
+  process.exit(2);
+}
+const entries = chosen.length > 0 ? chosen : tests;
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 await build({
