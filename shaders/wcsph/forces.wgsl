@@ -230,7 +230,7 @@ fn body_forces(at: Vector, velocity: Vector) -> Vector {
 // drho/dt / rho.
 fn shift_of(sums: Sums) -> vec4f {
     // One particle that flies faster than the method is valid for must not shake all the others.
-    let flow_speed = min(control.max_speed, 0.1 * constants.sound_speed);
+    let flow_speed = min(min(control.max_speed, 0.1 * constants.sound_speed), constants.shifting_limit / control.dt);
     let most = 0.25 * flow_speed;
     let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
     let factor = -parameters.shifting * 4.0 * constants.smoothing_length * flow_speed

@@ -205,6 +205,68 @@ static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimen
     return sums;
 }
 
+enum { WAVES = 7, PHASES = 16 };
+
+// Waves of displacements on the resting lattice, along each axis and diagonal, with PHASES phases from site to site up to pi:
+// how fast shifting undoes them, as a share of the amplitude per unit of u / (- sum_j V_j (1 + 0.2 (W / W(spacing))^4) F x).
+typedef struct ShiftingRates {
+    double rate[WAVES][PHASES];
+} ShiftingRates;
+
+// A site at `place`, in spacings.
+static void add_site(ShiftingRates *rates, const WeirParameters *parameters, uint32_t dimension,
+                     double spacing, const int place[3])
+{
+    double r = spacing * sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]), term[2];
+    double support = parameters->support_radius, step = 1e-4 * spacing;
+    double at_spacing = weir_smoothing_value(parameters->kernel, dimension, spacing, support);
+    for (int side = 0; side < 2; ++side) {
+        double at = r + (side ? step : -step);
+        double ratio = weir_smoothing_value(parameters->kernel, dimension, at, support) / at_spacing;
+        term[side] = (1.0 + 0.2 * pow(ratio, 4.0)) *
+                     weir_smoothing_gradient(parameters->kernel, dimension, at, support);
+    }
+    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    double value = 0.5 * (term[0] + term[1]), slope = (term[1] - term[0]) / (2.0 * step);
+    for (int wave = 0; wave < (1 << dimension) - 1; ++wave) {
+        int sites = 0, axes = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            int along = (wave + 1) >> axis & 1;
+            sites += along * place[axis];
+            axes += along;
+        }
+        double way = spacing * spacing * sites * sites / axes;
+        for (int n = 0; n < PHASES; ++n)
+            rates->rate[wave][n] += volume * (1.0 - cos((n + 1) * 3.141592653589793 / PHASES * sites)) *
+                                    (value + slope * way / r);
+    }
+}
+
+// Shifting is an explicit step of a diffusion of the particles: if it undid the fastest wave by more than twice the amplitude
+// in a step it would make pairs of particles. 1.4 times at most.
+static double shifting_limit(const WeirParameters *parameters, uint32_t dimension)
+{
+    double support = parameters->support_radius;
+    double spacing =
+        fmax(parameters->particle_spacing, support / 6.0); // from there on the rates hardly change
+    int reach = (int)ceil(support / spacing), layers = dimension == 3 ? reach : 0;
+    ShiftingRates rates = {0};
+    for (int k = -layers; k <= layers; ++k) {
+        for (int j = -reach; j <= reach; ++j) {
+            for (int i = -reach; i <= reach; ++i) {
+                if (i != 0 || j != 0 || k != 0)
+                    add_site(&rates, parameters, dimension, spacing, (int[]){i, j, k});
+            }
+        }
+    }
+    double fastest = 0.0;
+    for (int wave = 0; wave < WAVES; ++wave)
+        for (int n = 0; n < PHASES; ++n) fastest = fmax(fastest, rates.rate[wave][n]);
+    double strength =
+        4.0 * weir_smoothing_length(parameters->kernel, support) * parameters->shifting * fastest;
+    return strength > 0.0 ? fmin(1.4 / strength, 1e30) : 1e30;
+}
+
 // Constants of the passes of `wcsph`.
 static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters)
 {
@@ -218,6 +280,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
     LatticeSums resting = lattice_sums(parameters, dimension, resting_lattice(spacing, dimension));
     LatticeSums densest = lattice_sums(parameters, dimension, densest_lattice(spacing, dimension));
+    constants->shifting_limit = (float)shifting_limit(parameters, dimension);
     constants->lattice_filling = (float)resting.filling;
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;

@@ -27,6 +27,7 @@ WEIR_CONSTANT_NUMBER(smoothing_length, "wcsph: h, m: half of the support radius,
 WEIR_CONSTANT_NUMBER(kernel_factor, "wcsph: normalisation of W, 1/m^d")
 WEIR_CONSTANT_NUMBER(gradient_factor, "wcsph: normalisation of (dW/dr) / r, negative, 1/m^(d+2)")
 WEIR_CONSTANT_NUMBER(spacing_value, "wcsph: W at one particle spacing / kernel_factor, for shifting")
+WEIR_CONSTANT_NUMBER(shifting_limit, "wcsph: flow speed times time step beyond which shifting overshoots, m")
 WEIR_CONSTANT_NUMBER(lattice_filling, "wcsph: sum of V W over a lattice at rest")
 WEIR_CONSTANT_NUMBER(sound_speed, "wcsph: c0, chosen from the scene if the parameter is 0, m/s")
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")

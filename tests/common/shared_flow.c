@@ -266,6 +266,68 @@ static void a_body_gets_what_the_fluid_loses(const WeirBackend *backend)
     }
 }
 
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// Distance to the nearest neighbour that all but one in a hundred particles keep.
+static double least_distance(WeirSim *sim)
+{
+    uint32_t count = weir_sim_particle_count(sim), dimension = weir_sim_dimension(sim);
+    float *x = weir_test_read(sim, WEIR_FIELD_POSITION);
+    double *nearest = malloc(count * sizeof *nearest);
+    assert_non_null(nearest);
+    for (uint32_t i = 0; i < count; ++i) {
+        nearest[i] = INFINITY;
+        for (uint32_t j = 0; j < count; ++j) {
+            double r2 = 0.0;
+            for (uint32_t axis = 0; axis < dimension; ++axis)
+                r2 += pow((double)x[dimension * i + axis] - (double)x[dimension * j + axis], 2.0);
+            if (j != i && r2 < nearest[i]) nearest[i] = r2;
+        }
+    }
+    qsort(nearest, count, sizeof *nearest, by_value);
+    double result = sqrt(nearest[count / 100]);
+    free(nearest);
+    free(x);
+    return result;
+}
+
+// Shifting keeps particles apart at small supports and large steps too, where it could overshoot.
+static void shifting_makes_no_pairs(const WeirBackend *backend)
+{
+    static const double supports[2] = {2.5, 2.1}, turn = 6.283185307179586;
+    for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
+        double spacing = dimension == 3 ? 0.1 : 0.04;
+        WeirScene *scene = tank(dimension, 1, 1, spacing);
+        CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", dimension == 3 ? "xyz" : "xy"),
+                    WEIR_OK);
+        weir_test_gravity(scene, 0, 0);
+        weir_test_set(scene, "expected_speed", 1);
+        weir_test_set(scene, "support_radius", supports[dimension - 2] * spacing);
+        weir_test_set(scene, "courant", 0.8);
+        CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 1, 1}, NULL),
+                    WEIR_OK);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
+        float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
+              *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+        for (uint32_t i = 0; i < weir_sim_particle_count(sim); ++i) {
+            double x = turn * position[dimension * i], y = turn * position[dimension * i + 1];
+            velocity[dimension * i] = (float)(sin(x) * cos(y));
+            velocity[dimension * i + 1] = (float)(-cos(x) * sin(y));
+        }
+        weir_test_set_state(sim, position, velocity);
+        weir_test_step(sim, 250);
+        CHECK_AT_MOST(0.6 * spacing, least_distance(sim));
+        free(position);
+        free(velocity);
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_body_gets_what_the_fluid_loses),
     WEIR_SHARED_TEST(a_far_column_falls_as_the_near_one),
@@ -276,5 +338,6 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(walls_hold_a_splash),
     WEIR_SHARED_TEST(walls_hold_fast_fluid),
     WEIR_SHARED_TEST(a_flyer_shakes_nothing_else),
+    WEIR_SHARED_TEST(shifting_makes_no_pairs),
 };
 WEIR_SHARED_GROUP(flow, tests);

@@ -137,6 +137,7 @@ static void point_to_sorted(WeirWcsph *solver)
     data->cell_start = solver->cells.cell_start;
     // One particle that flies faster than the method is valid for must not shake all the others.
     data->flow_speed = fminf(solver->clock.max_speed, 0.1f * solver->constants.sound_speed);
+    data->flow_speed = fminf(data->flow_speed, solver->constants.shifting_limit / solver->dt);
     for (int axis = 0; axis < 3; ++axis) {
         data->x[axis] = solver->sorted.x[axis];
         data->velocity[axis] = solver->sorted.velocity[axis];

@@ -11,7 +11,7 @@ typedef struct WeirWcsphData {
     const WeirParameters *parameters;
     const WeirConstants *constants;
     const uint32_t *cell_start;
-    float flow_speed;    // m/s, the fluid's largest, c0 / 10 at most
+    float flow_speed;    // m/s, the fluid's largest, at most c0 / 10 and what shifting stands
     float second_half;   // quanta per m/s: how far a velocity moves a particle in the second half of the step
     const int32_t *x[3]; // coordinates, quanta
     const float *velocity[3]; // m/s, at the start of the step
