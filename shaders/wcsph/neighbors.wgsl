@@ -36,21 +36,12 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         }
         fits = fits && run_fits(i, layer_first, layer, begin, end);
         let shift = entry_shift(i, layer_first, layer);
-        for (var j = begin; j < end; j += 4u) {
-            // Loads first, so that they wait for memory together.
-            let four = min(j + vec4u(0u, 1u, 2u, 3u), vec4u(end - 1u));
-            let others = array(coordinate[start + four.x], coordinate[start + four.y], coordinate[start + four.z],
-                               coordinate[start + four.w]);
-            let near = vec4<bool>(is_near(walk.place, others[0], limit, solid), is_near(walk.place, others[1], limit, solid),
-                                  is_near(walk.place, others[2], limit, solid), is_near(walk.place, others[3], limit, solid))
-                & (j + vec4u(0u, 1u, 2u, 3u) < vec4u(end));
-            for (var k = 0u; k < 4u; k++) {
-                if near[k] {
-                    chunk = pushed(chunk, j + k + shift);
-                    count += 1u;
-                    if count % 8u == 0u && count <= 8u * LIST_CHUNKS {
-                        neighbor_list[chunk_index(i, count / 8u)] = chunk;
-                    }
+        for (var first = begin; first < end; first += 32u) {
+            for (var near = near_among(walk.place, start + first, start + end, limit, solid); near != 0u; near &= near - 1u) {
+                chunk = pushed(chunk, first + firstTrailingBit(near) + shift);
+                count += 1u;
+                if count % 8u == 0u && count <= 8u * LIST_CHUNKS {
+                    neighbor_list[chunk_index(i, count / 8u)] = chunk;
                 }
             }
         }
@@ -68,9 +59,28 @@ fn make_list(i: u32, own: vec4i, start: u32) {
     neighbor_list[chunk_index(i, 0u)] = vec4u(select(NO_LIST, count / 8u, fits), header.yzw);
 }
 
-fn is_near(place: Place, other: vec4i, limit: f32, solid: bool) -> bool {
+// Bits of the near ones among the 32 candidates from `first` on, as far as they lie before `end`.
+fn near_among(place: Place, first: u32, end: u32, limit: f32, solid: bool) -> u32 {
+    let count = min(end - first, 32u);
+    var near = 0u;
+    for (var k = 0u; k < count; k += 4u) {
+        // Loads first, so that they wait for memory together.
+        let four = min(first + k + vec4u(0u, 1u, 2u, 3u), vec4u(end - 1u));
+        let a = coordinate[four.x];
+        let b = coordinate[four.y];
+        let c = coordinate[four.z];
+        let d = coordinate[four.w];
+        let bits = is_near(place, a, limit, solid) | (is_near(place, b, limit, solid) << 1u)
+            | (is_near(place, c, limit, solid) << 2u) | (is_near(place, d, limit, solid) << 3u);
+        near |= bits << k;
+    }
+    return near & (0xffffffffu >> (32u - count));
+}
+
+// 1 or 0.
+fn is_near(place: Place, other: vec4i, limit: f32, solid: bool) -> u32 {
     let offset = Vector(place - place_of(other));
-    return dot(offset, offset) < limit && !(HAS_SOLIDS && solid && is_solid(u32(other.w)));
+    return select(0u, 1u, dot(offset, offset) < limit && !(HAS_SOLIDS && solid && is_solid(u32(other.w))));
 }
 
 // A chunk with an entry more; its first one falls out.
