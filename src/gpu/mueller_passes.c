@@ -57,9 +57,9 @@ static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
     [WEIR_MUELLER_SCATTER] = {NAMED(scatter), STATE | BIT(cell_link) | BIT(cell_start), SORTED,
                               WEIR_ITEMS_PARTICLES},
     [WEIR_MUELLER_DENSITY] = {NAMED(density), BIT(sorted_position) | BIT(sorted_velocity) | BIT(cell_start),
-                              BIT(flow) | BIT(cell_link), WEIR_ITEMS_PARTICLES},
+                              BIT(flow) | BIT(cell_link), WEIR_ITEMS_SHARES},
     [WEIR_MUELLER_FORCES] = {NAMED(forces), BIT(sorted_position) | BIT(flow) | BIT(cell_start),
-                             BIT(acceleration) | BIT(health), WEIR_ITEMS_PARTICLES},
+                             BIT(acceleration) | BIT(health), WEIR_ITEMS_SHARES},
     [WEIR_MUELLER_DENSITY_ALL_PAIRS] = {NAMED(density_all_pairs), STATE, BIT(flow) | SORTED,
                                         WEIR_ITEMS_PARTICLES},
     [WEIR_MUELLER_FORCES_ALL_PAIRS] = {NAMED(forces_all_pairs), BIT(sorted_position) | BIT(flow),
@@ -84,12 +84,20 @@ const WeirMethodInfo weir_mueller_method = {
     .parts = parts,
 };
 
+uint32_t weir_mueller_lanes(uint32_t particle_count)
+{
+    // Measured on an H100: docs/performance.md, tries.
+    return particle_count <= 8192 ? 8 : particle_count <= 65536 ? 4 : 1;
+}
+
 uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConstants *constants,
                                char settings[WEIR_SETTINGS_LENGTH])
 {
     bool tutorial = parameters->kernels == WEIR_KERNELS_TUTORIAL;
-    snprintf(settings, WEIR_SETTINGS_LENGTH, "const TUTORIAL_KERNELS = %s;\nconst FOLDED_X = %s;\n",
-             tutorial ? "true" : "false", weir_grid_folds_columns(constants) ? "true" : "false");
+    snprintf(settings, WEIR_SETTINGS_LENGTH,
+             "const TUTORIAL_KERNELS = %s;\nconst FOLDED_X = %s;\nconst LANES = %uu;\n",
+             tutorial ? "true" : "false", weir_grid_folds_columns(constants) ? "true" : "false",
+             weir_mueller_lanes(constants->particle_count));
     uint32_t integrate = 1u << WEIR_MUELLER_INTEGRATE;
     uint32_t all_pairs = 1u << WEIR_MUELLER_DENSITY_ALL_PAIRS | 1u << WEIR_MUELLER_FORCES_ALL_PAIRS;
     if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | integrate;

@@ -9,6 +9,7 @@ enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 2048 
 // What a pass is spread over.
 typedef enum WeirItems {
     WEIR_ITEMS_PARTICLES,   // one thread per particle
+    WEIR_ITEMS_SHARES,      // several threads per particle (mueller)
     WEIR_ITEMS_CELL_BLOCKS, // one workgroup per block of the scan
     WEIR_ITEMS_ONE,         // one workgroup
     WEIR_ITEMS_SOLIDS,      // one thread per solid particle (wcsph)
