@@ -12,13 +12,6 @@ fn row_line(coordinate: i32) -> u32 {
     return u32(max(coordinate, 0)) / ROW_HEIGHT;
 }
 
-fn folded(line: u32, count: u32) -> u32 {
-    if line < count {
-        return line;
-    }
-    return line % count;
-}
-
 fn grid_cell(place: Place) -> u32 {
     let coordinate = wide_place(place);
     let column = folded(column_line(coordinate.x), constants.cell_columns);

@@ -10,13 +10,6 @@ fn grid_row(y: f32) -> u32 {
     return u32(clamp(row, 0, i32(constants.domain_rows) - 1));
 }
 
-fn folded(line: u32, count: u32) -> u32 {
-    if line < count {
-        return line;
-    }
-    return line % count;
-}
-
 fn grid_cell(position: vec2f) -> u32 {
     return folded(grid_row(position.y), constants.cell_rows) * constants.cell_columns
         + folded(grid_column(position.x), constants.cell_columns);

@@ -6,3 +6,11 @@ fn workgroup_index(workgroup: vec3u, workgroups: vec3u) -> u32 {
 fn thread_index(workgroup: vec3u, workgroups: vec3u, local: u32) -> u32 {
     return workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE + local;
 }
+
+// The column, row or layer of a grid of `count` lines that a line of the domain shares with those `count` apart.
+fn folded(line: u32, count: u32) -> u32 {
+    if line < count {
+        return line;
+    }
+    return line % count;
+}

@@ -153,6 +153,12 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     constants->row_shift = (uint32_t)ilogb(fit.cell[1]);
 }
 
+// m^3; in 2D m^2.
+static double site_volume(double spacing, uint32_t dimension)
+{
+    return dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+}
+
 // Sites of an endless lattice: those of a box of cells, all of them or every other one as on a chessboard. The resting
 // lattice is square or cubic; fluid that has moved, and was shifted, comes close to the densest one, hexagonal or
 // face-centred cubic.
@@ -185,7 +191,7 @@ typedef struct LatticeSums {
 static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension, Lattice lattice)
 {
     double spacing = parameters->particle_spacing, support = parameters->support_radius;
-    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    double volume = site_volume(spacing, dimension);
     int reach[3] = {0, 0, 0};
     for (uint32_t axis = 0; axis < dimension; ++axis)
         reach[axis] = (int)fmin(ceil(support / lattice.cell[axis]), 100.0);
@@ -226,7 +232,7 @@ static void add_site(ShiftingRates *rates, const WeirParameters *parameters, uin
         term[side] = (1.0 + 0.2 * pow(ratio, 4.0)) *
                      weir_smoothing_gradient(parameters->kernel, dimension, at, support);
     }
-    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    double volume = site_volume(spacing, dimension);
     double value = 0.5 * (term[0] + term[1]), slope = (term[1] - term[0]) / (2.0 * step);
     for (int wave = 0; wave < (1 << dimension) - 1; ++wave) {
         int sites = 0, axes = 0;
@@ -272,7 +278,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
 {
     double support = parameters->support_radius, spacing = parameters->particle_spacing;
     uint32_t kernel = parameters->kernel, dimension = scene->dimension;
-    double volume = dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    double volume = site_volume(spacing, dimension);
     constants->particle_mass = (float)(parameters->rest_density * volume);
     constants->smoothing_length = (float)weir_smoothing_length(kernel, support);
     constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);

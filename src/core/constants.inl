@@ -32,7 +32,7 @@ WEIR_CONSTANT_NUMBER(lattice_filling, "wcsph: sum of V W over a lattice at rest"
 WEIR_CONSTANT_NUMBER(sound_speed, "wcsph: c0, chosen from the scene if the parameter is 0, m/s")
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(laminar_factor, "wcsph: friction_factor if laminar viscosity is the larger one, else 0, Pa s")
-WEIR_CONSTANT_NUMBER(friction_factor, "wcsph: 2 mu, calibrated so that the Laplacian is exact on the lattice, Pa s")
+WEIR_CONSTANT_NUMBER(friction_factor, "wcsph: 2 mu, calibrated so that the Laplacian is exact on the densest lattice, Pa s")
 WEIR_CONSTANT_COUNT(tool_kind, "WeirToolKind")
 WEIR_CONSTANT_COUNT(particle_count, "particles")
 WEIR_CONSTANT_COUNT(cell_columns, "cells along x")
