@@ -113,8 +113,9 @@ static void a_shader_error_names_the_pass(void **state)
     WeirReport *report = weir_report_create(gpu);
     WeirMessage message = {""};
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
-    char *source =
-        weir_pass_source(&weir_mueller_method, "const TUTORIAL_KERNELS = false;\n", 1, NULL, wrong);
+    char settings[WEIR_SETTINGS_LENGTH];
+    weir_mueller_settings(&(WeirParameters){0}, &(WeirConstants){0}, settings);
+    char *source = weir_pass_source(&weir_mueller_method, settings, 1, NULL, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});
     WGPUComputePipeline pipeline = weir_pass_pipeline(gpu, "density", "pass density", source, layout, report);
