@@ -136,7 +136,7 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          solver->constants.cell_count, constants->cell_count);
     uint32_t threads = constants->particle_count * weir_mueller_lanes(constants->particle_count);
-    solver->passes.groups[WEIR_ITEMS_SHARES] = (threads + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    solver->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(threads);
     char settings[WEIR_SETTINGS_LENGTH];
     uint32_t needed = weir_mueller_settings(parameters, constants, settings);
     status = weir_passes_prepare(&solver->passes, settings, needed, solver->report, &base->message);

@@ -19,6 +19,12 @@ typedef enum WeirItems {
     WEIR_ITEMS_TOTAL
 } WeirItems;
 
+// That hold so many threads.
+static inline uint32_t weir_workgroups(uint32_t threads)
+{
+    return (threads + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+}
+
 typedef struct WeirPassInfo {
     const char *name, *label, *source;
     const char *settings;     // WGSL constants of this pass, NULL for none

@@ -45,7 +45,7 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     if (status != WEIR_OK) return status;
     uint32_t particles = solver->constants.particle_count;
     solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
-    solver->passes.groups[WEIR_ITEMS_PARTICLES] = (particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    solver->passes.groups[WEIR_ITEMS_PARTICLES] = weir_workgroups(particles);
     solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = scan_blocks;
     solver->passes.groups[WEIR_ITEMS_ONE] = 1;
     solver->profile = weir_profile_create(gpu, solver->report);

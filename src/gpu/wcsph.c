@@ -280,8 +280,7 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     WeirStatus status = weir_gpu_solver_make(common, method, sizes, scan_blocks, copy_size, message);
     if (status != WEIR_OK) return status;
     uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
-    common->passes.groups[WEIR_ITEMS_SOLIDS] =
-        (solid_particles + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    common->passes.groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
     uint32_t groups = common->passes.groups[WEIR_ITEMS_PARTICLES];
     common->passes.groups[WEIR_ITEMS_SORTING] = groups < MOST_SORTING ? groups : MOST_SORTING;
     common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
