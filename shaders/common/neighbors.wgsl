@@ -1,21 +1,44 @@
-// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, add_pair(),
+// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, added(), add_pair(),
 // state_of(), what add_pair wants to know of a neighbour but its coordinate, and add_itself(), what the particle adds to
-// its own sums: a list may hold it several times, and each time `itself` keeps it from adding anything.
+// its own sums: a list may hold it several times, and each time `itself` keeps it from adding anything. Furthermore
+// searched_start(), the first slot of the working copy that holds the candidates, and way_since_sort(), the largest way
+// of a particle from where it was sorted to there.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then, eight to a chunk; so it misses nobody while no particle has moved farther than
 // that. When one has, or where a list did not fit, the cells are walked, as far out as particles have moved: the same
-// neighbours in the same order.
+// neighbours, and for a lone thread in the same order.
+//
+// LANES threads, side by side in a workgroup, share a particle's neighbours. Several leave their shares for the first one,
+// which after a barrier finds all_sums(). A lone one sums where it asks for all_sums(): brought there from before, the
+// sums cost large scenes up to a tenth of pass forces (H100).
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_neighbor_list) var<storage, read> neighbor_list: array<vec4u>;
 
-// Looks up the candidates in the side of the working copies that begins at `start`; `moved`: the largest way since the sort.
-fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: u32) -> Sums {
+// By the workgroup's threads.
+var<workgroup> shares: array<Sums, select(1u, WORKGROUP_SIZE, LANES > 1u)>;
+
+// Of the particle in slot i, for its first thread, which is the workgroup's thread `local`.
+fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
+    if LANES == 1u {
+        return sum_pairs(i, place, own, 0u);
+    }
+    var sums = shares[local];
+    for (var lane = 1u; lane < LANES; lane++) {
+        sums = added(sums, shares[local + lane]);
+    }
+    return sums;
+}
+
+// A lane's share: every LANES-th chunk of the list, or candidate of a run of cells.
+fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
+    let start = searched_start();
+    let moved = way_since_sort();
     var sums: Sums;
-    if LISTS && moved <= allowance {
+    if LISTS && moved <= control.allowance {
         let header = neighbor_list[chunk_index(i, 0u)];
         if header.x != NO_LIST {
-            for (var c = 1u; c <= header.x; c++) {
+            for (var c = 1u + lane; c <= header.x; c += LANES) {
                 let chunk = neighbor_list[chunk_index(i, c)];
                 // Not unrolled by hand: software adapters would compile it for a minute.
                 for (var half = 0u; half < 2u; half++) {
@@ -25,7 +48,9 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
                     add_four(&sums, i, place, own, start, slots);
                 }
             }
-            add_itself(&sums, own);
+            if lane == 0u {
+                add_itself(&sums, own);
+            }
             return sums;
         }
     }
@@ -33,7 +58,7 @@ fn sum_pairs(i: u32, place: Place, own: Own, start: u32, moved: u32, allowance: 
     var walk = walk_around(place, i32(1u << constants.coordinate_bits) + i32(moved));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
-        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+        for (var j = cell_start[walk.first_cell] + lane; j < end; j += LANES) {
             let other = coordinate[start + j];
             let offset = Vector(walk.place - place_of(other));
             if BRANCH_FREE || dot(offset, offset) < support * support {

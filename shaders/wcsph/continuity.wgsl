@@ -48,6 +48,24 @@ struct Sums {
     diffusion: f32,
 }
 
+fn added(a: Sums, b: Sums) -> Sums {
+    return Sums(a.divergence + b.divergence, a.diffusion + b.diffusion);
+}
+
+fn own_of(own_motion: vec4f) -> Own {
+    let c = constants.sound_speed;
+    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
+    return Own(own_motion, hydrostatic, 0.5 * control.last_dt * constants.inverse_quantum);
+}
+
+fn searched_start() -> u32 {
+    return side_start(control.last_side);
+}
+
+fn way_since_sort() -> u32 {
+    return control.travelled - control.sorted_at;
+}
+
 fn state_of(start: u32, j: u32) -> vec4f {
     return kicked[j];
 }
@@ -72,15 +90,11 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
     }
 }
 
-// Of the particle in slot i. `shift_rate`: what shifting adds, drho/dt / rho.
-fn density_rate(i: u32, own: vec4i, own_motion: vec4f, shift_rate: f32) -> f32 {
-    let c = constants.sound_speed;
-    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
-    let sums = sum_pairs(i, place_of(own), Own(own_motion, hydrostatic, 0.5 * control.last_dt * constants.inverse_quantum), side_start(control.last_side),
-                         control.travelled - control.sorted_at, control.allowance);
+// `shift_rate`: what shifting adds, drho/dt / rho.
+fn density_rate(sums: Sums, own_motion: vec4f, shift_rate: f32) -> f32 {
     let volume = constants.particle_mass * constants.gradient_factor;
     let compress = volume * constants.quantum;
-    let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * c;
+    let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * constants.sound_speed;
     return (parameters.rest_density + own_motion.w) * (compress * sums.divergence + shift_rate)
         + diffuse * sums.diffusion;
 }
@@ -114,10 +128,10 @@ fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
     }
 }
 
-fn finish_fluid(i: u32, own: vec4i) {
+fn finish_fluid(i: u32, own: vec4i, local: u32) {
     var own_motion = kicked[i];
     let shift = kicked[constants.particle_count + i];
-    let rate = density_rate(i, own, own_motion, shift.w);
+    let rate = density_rate(all_sums(i, place_of(own), own_of(own_motion), local), own_motion, shift.w);
     var velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
@@ -159,11 +173,21 @@ fn leave(i: u32, at: vec4i, own_motion: vec4f) {
     motion[target_slot] = own_motion;
 }
 
-fn finish(i: u32) {
+// What a lane leaves for all_sums().
+fn share_of(i: u32, lane: u32) -> Sums {
+    let own = coordinate[side_start(control.last_side) + i];
+    if !is_fluid(u32(own.w)) {
+        return Sums();
+    }
+    return sum_pairs(i, place_of(own), own_of(kicked[i]), lane);
+}
+
+// By the particle's first thread, the workgroup's thread `local`.
+fn finish(i: u32, local: u32) {
     let own = coordinate[side_start(control.last_side) + i];
     let group = u32(own.w);
     if is_fluid(group) {
-        finish_fluid(i, own);
+        finish_fluid(i, own, local);
         return;
     }
     var place = own;
@@ -187,9 +211,17 @@ fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
-    let i = thread_index(workgroup, workgroups, local);
-    if i < constants.particle_count && control.finishing == 1u {
-        finish(i);
+    let thread = thread_index(workgroup, workgroups, local);
+    let i = thread / LANES;
+    let works = i < constants.particle_count && control.finishing == 1u;
+    if LANES > 1u {
+        if works {
+            shares[local] = share_of(i, thread % LANES);
+        }
+        workgroupBarrier();
+    }
+    if works && thread % LANES == 0u {
+        finish(i, local);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&finish_most) > 0u {

@@ -62,6 +62,21 @@ fn own_of(own: vec4i, own_motion: vec4f) -> Own {
                1.0 / constants.spacing_value, 1e-4 * h * h, 1.0 / (parameters.rest_density + own_motion.w));
 }
 
+fn added(a: Sums, b: Sums) -> Sums {
+    return Sums(a.pressure + b.pressure, a.gradient + b.gradient, a.viscous + b.viscous, a.laminar + b.laminar,
+                a.friction + b.friction, a.clustering + b.clustering, a.surface + b.surface, a.filling + b.filling,
+                max(a.solid_gap, b.solid_gap));
+}
+
+fn searched_start() -> u32 {
+    return side_start(control.side);
+}
+
+fn way_since_sort() -> u32 {
+    return control.travelled + atomicLoad(&control.moved_finish) + atomicLoad(&control.moved_drift)
+        - control.sorted_at;
+}
+
 fn state_of(start: u32, j: u32) -> vec4f {
     return motion[start + j];
 }
@@ -173,17 +188,6 @@ fn meets_barrier(sums: Sums, own_motion: vec4f) -> bool {
     return HAS_SOLIDS && (close || (sums.solid_gap > 0.0 && (MOVING_SOLIDS || fast)));
 }
 
-// Of the particle in slot i.
-fn sum_forces(i: u32, own: vec4i, own_motion: vec4f) -> Sums {
-    return sum_pairs(i, place_of(own), own_of(own, own_motion), side_start(control.side), way_since_sort(),
-                     control.allowance);
-}
-
-fn way_since_sort() -> u32 {
-    return control.travelled + atomicLoad(&control.moved_finish) + atomicLoad(&control.moved_drift)
-        - control.sorted_at;
-}
-
 // m/s^2 per unit of the sum of pressures.
 fn pressure_scale(excess: f32) -> f32 {
     return -constants.quantum * constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
@@ -270,8 +274,8 @@ fn contact_force(own: vec4i) -> Vector {
     return force;
 }
 
-fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f) -> Vector {
-    let sums = sum_forces(i, own, own_motion);
+fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
+    let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
     var acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w), false);
     if meets_barrier(sums, own_motion) {
         acceleration += barrier_of(own, own_motion);
@@ -327,8 +331,8 @@ fn publish_maxima() {
     }
 }
 
-fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f) {
-    let sums = sum_forces(i, own, own_motion);
+fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
+    let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
     let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
     let inside = full * sums.surface >= 0.95 * f32(DIMENSION);
     let pressure = pressure_of(own_motion.w);
@@ -378,10 +382,18 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
         clear_maxima();
     }
     workgroupBarrier();
-    let i = thread_index(workgroup, workgroups, local);
-    let works = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
-    if i < constants.particle_count && works {
-        forces_on(i);
+    let thread = thread_index(workgroup, workgroups, local);
+    let i = thread / LANES;
+    let runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
+    let works = i < constants.particle_count && runs;
+    if LANES > 1u {
+        if works {
+            shares[local] = share_of(i, thread % LANES);
+        }
+        workgroupBarrier();
+    }
+    if works && thread % LANES == 0u {
+        forces_on(i, local);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
@@ -389,7 +401,18 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     }
 }
 
-fn forces_on(i: u32) {
+// What a lane leaves for all_sums().
+fn share_of(i: u32, lane: u32) -> Sums {
+    let own = coordinate[side_start(control.side) + i];
+    let group = u32(own.w);
+    if group == GROUP_EMPTY || (HAS_SOLIDS && is_solid(group) && !wants_force(group)) {
+        return Sums();
+    }
+    return sum_pairs(i, place_of(own), own_of(own, motion[side_start(control.side) + i]), lane);
+}
+
+// By the particle's first thread, the workgroup's thread `local`.
+fn forces_on(i: u32, local: u32) {
     let own = coordinate[side_start(control.side) + i];
     let own_motion = motion[side_start(control.side) + i];
     let group = u32(own.w);
@@ -397,14 +420,14 @@ fn forces_on(i: u32) {
         if group == GROUP_EMPTY {
             kicked[i] = vec4f(0.0);
         } else {
-            forces_on_fluid(i, own, own_motion);
+            forces_on_fluid(i, own, own_motion, local);
         }
         return;
     }
     // A surface that slides along itself displaces no fluid. Of a moving solid pass kick knows better.
     kicked[i] = vec4f(vec3f(0.0), own_motion.w);
     if wants_force(group) {
-        let acceleration = force_on_solid(i, own, own_motion);
+        let acceleration = force_on_solid(i, own, own_motion, local);
         if FORCES_READ {
             kicked[i] = vec4f(wide(acceleration), linear_pressure(own_motion.w));
         }

@@ -21,6 +21,18 @@ struct Sums {
     moment: Vector,
 }
 
+fn added(a: Sums, b: Sums) -> Sums {
+    return Sums(a.weight + b.weight, a.pressure + b.pressure, a.mean + b.mean, a.moment + b.moment);
+}
+
+fn searched_start() -> u32 {
+    return side_start(control.side);
+}
+
+fn way_since_sort() -> u32 {
+    return control.travelled + control.moved_finish + control.moved_drift - control.sorted_at;
+}
+
 fn state_of(start: u32, j: u32) -> vec4f {
     return motion[start + j];
 }
@@ -57,19 +69,18 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
                           + cross(state.angular_velocity.xyz, spin));
 }
 
-@compute @workgroup_size(WORKGROUP_SIZE)
-fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
-         @builtin(local_invocation_index) local: u32) {
-    let particle = thread_index(workgroup, workgroups, local);
-    let works = control.running == 1u && is_well(control.bad_step, control.restored);
-    if particle >= constants.particle_count - constants.first_solid || !works {
-        return;
-    }
+// What a lane leaves for all_sums().
+fn share_of(particle: u32, lane: u32) -> Sums {
+    let i = solid_slot[particle];
+    return sum_pairs(i, place_of(coordinate[side_start(control.side) + i]), Own(0u), lane);
+}
+
+// By the first thread of the solid particle, the workgroup's thread `local`.
+fn see_fluid(particle: u32, local: u32) {
     let i = solid_slot[particle];
     let start = side_start(control.side);
     let own = coordinate[start + i];
-    let moved = control.travelled + control.moved_finish + control.moved_drift - control.sorted_at;
-    let sums = sum_pairs(i, place_of(own), Own(0u), start, moved, control.allowance);
+    let sums = all_sums(i, place_of(own), Own(0u), local);
     let wall = wall_motion(u32(own.w) - GROUP_SOLID, particle);
     var seen = wall.velocity;
     var wall_pressure = 0.0;
@@ -82,4 +93,22 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     let stiffness = constants.sound_speed * constants.sound_speed;
     let excess = (wall_pressure - parameters.background_pressure) / stiffness;
     motion[start + i] = vec4f(seen, excess);
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+         @builtin(local_invocation_index) local: u32) {
+    let thread = thread_index(workgroup, workgroups, local);
+    let particle = thread / LANES;
+    let runs = control.running == 1u && is_well(control.bad_step, control.restored);
+    let works = particle < constants.particle_count - constants.first_solid && runs;
+    if LANES > 1u {
+        if works {
+            shares[local] = share_of(particle, thread % LANES);
+        }
+        workgroupBarrier();
+    }
+    if works && thread % LANES == 0u {
+        see_fluid(particle, local);
+    }
 }

@@ -8,11 +8,12 @@ enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 2048 
 
 // What a pass is spread over.
 typedef enum WeirItems {
-    WEIR_ITEMS_PARTICLES,   // one thread per particle
-    WEIR_ITEMS_SHARES,      // several threads per particle (mueller)
-    WEIR_ITEMS_CELL_BLOCKS, // one workgroup per block of the scan
-    WEIR_ITEMS_ONE,         // one workgroup
-    WEIR_ITEMS_SOLIDS,      // one thread per solid particle (wcsph)
+    WEIR_ITEMS_PARTICLES,    // one thread per particle
+    WEIR_ITEMS_SHARES,       // several threads per particle
+    WEIR_ITEMS_CELL_BLOCKS,  // one workgroup per block of the scan
+    WEIR_ITEMS_ONE,          // one workgroup
+    WEIR_ITEMS_SOLIDS,       // one thread per solid particle (wcsph)
+    WEIR_ITEMS_SOLID_SHARES, // several threads per solid particle (wcsph)
     WEIR_ITEMS_SORTING, // threads that may take several particles each: they often have nothing to do (wcsph)
     WEIR_ITEMS_BLOCKS,  // one workgroup per block of solid particles (wcsph)
     WEIR_ITEMS_FREE_BLOCKS, // the same of free bodies alone

@@ -177,6 +177,10 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
         return weir_fail(&base->message, WEIR_ERROR_INPUT,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          common->constants.cell_count, constants->cell_count);
+    uint32_t lanes = solver->traits.lanes, count = constants->particle_count;
+    uint32_t solid_particles = count - constants->first_solid;
+    common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(lanes * count);
+    common->passes.groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(lanes * solid_particles);
     char settings[WEIR_SETTINGS_LENGTH];
     uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, &solver->traits, settings);
     status = weir_passes_prepare(&common->passes, settings, needed, common->report, &base->message);
@@ -266,11 +270,7 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     if (!weir_gpu_wcsph_copy_world(solver, setup) || !make_host(solver))
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %u particles",
                          setup->constants.particle_count);
-    const WGPULimits *limits = &common->gpu->limits;
-    uint64_t most = limits->maxStorageBufferBindingSize < limits->maxBufferSize
-                        ? limits->maxStorageBufferBindingSize
-                        : limits->maxBufferSize;
-    weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, most);
+    weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, common->gpu);
     WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &setup->constants);
     uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL];
     weir_gpu_wcsph_sizes(&cells, &solver->world, &solver->traits, sizes);

@@ -87,6 +87,7 @@ typedef struct WeirWcsphTraits {
     float fastest_surface; // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
     uint32_t sort_interval; // steps; particles may be sorted before those whose number it divides
+    uint32_t lanes;         // threads that share a particle's neighbours: 1, 2, 4, 8
     uint32_t list_chunks;   // of 8 neighbours, per particle; 0: no lists
     uint32_t row_height;    // of cells, quanta
     uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
@@ -123,9 +124,9 @@ static_assert(WEIR_MAX_EMITTERS * sizeof(WeirEmitter) <= 65536 &&
 static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
 
 // wcsph_neighbors.c
-// How neighbours are found, from what else is known of the world; a list takes at most `most_bytes` in all.
+// How neighbours are found, from what else is known of the world and of the device.
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
-                         const WeirConstants *constants, uint64_t most_bytes);
+                         const WeirConstants *constants, const WeirGpu *gpu);
 // The constants with the cells of this plan.
 WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirConstants *constants);
 

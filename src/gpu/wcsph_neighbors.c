@@ -14,6 +14,9 @@ static const double most_chunks = 4096.0;
 static const double most_pairs_of_lists_2d = 1e7;
 // Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
 static const double pairs_for_every_step = 2e7;
+// Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
+static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
+static const uint32_t most_lanes = 8;
 
 static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
 {
@@ -54,11 +57,28 @@ static bool walks_half_rows(const WeirParameters *parameters, uint32_t dimension
     return dimension == 3 && ratio * ratio * ratio / 32.0 >= 0.75;
 }
 
-void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
-                         const WeirConstants *constants, uint64_t most_bytes)
+// Few particles do not fill a large device, and a thread takes neighbours one after the other; but each thread more has
+// its own way to them, and its share to hand over. A processor that plays the device is full with one thread each.
+static uint32_t lanes_for(double particles, double neighbors, bool software)
 {
+    uint32_t lanes = 1, most = software ? 1 : most_lanes;
+    while (lanes < most && 2 * lanes * particles <= threads_per_neighbor * neighbors &&
+           2 * lanes * neighbors_per_lane <= neighbors)
+        lanes *= 2;
+    return lanes;
+}
+
+void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
+                         const WeirConstants *constants, const WeirGpu *gpu)
+{
+    const WGPULimits *limits = &gpu->limits;
+    uint64_t most_bytes = limits->maxStorageBufferBindingSize < limits->maxBufferSize
+                              ? limits->maxStorageBufferBindingSize
+                              : limits->maxBufferSize;
     double support = (double)(1u << constants->coordinate_bits);
-    double pairs = constants->particle_count * lattice_neighbors(parameters, constants->dimension, 1.0);
+    double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
+    double pairs = constants->particle_count * neighbors;
+    traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
     traits->list_chunks = chunks_of_lists(parameters, constants, pairs, most_bytes);
     bool lists = traits->list_chunks > 0;
     double least = lists ? least_allowance : walk_allowance, most = lists ? most_allowance : walk_allowance;

@@ -100,9 +100,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, pairs_part,
                           BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                               BIT(control),
-                          BIT(motion), WEIR_ITEMS_SOLIDS},
+                          BIT(motion), WEIR_ITEMS_SOLID_SHARES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", pairs_part, FORCES_READS,
-                           FORCES_WRITES, WEIR_ITEMS_PARTICLES},
+                           FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                  WEIR_ITEMS_FREE_BLOCKS},
     [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
@@ -113,12 +113,12 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                              BIT(control),
                          BIT(kicked), WEIR_ITEMS_SOLIDS},
     [WEIR_WCSPH_CONTINUITY] = {WCSPH(continuity), NULL, finish_part, BIT(id) | SEARCH,
-                               PARTICLES | BIT(kicked) | BIT(control), WEIR_ITEMS_PARTICLES},
+                               PARTICLES | BIT(kicked) | BIT(control), WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", pairs_part, FORCES_READS,
-                                FORCES_WRITES, WEIR_ITEMS_PARTICLES},
+                                FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                       WEIR_ITEMS_BLOCKS},
     [WEIR_WCSPH_FIRST_STEP] = {WCSPH(first_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
@@ -210,6 +210,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("CAN_EMPTY", traits->can_empty);
     FLAG("LISTS", traits->list_chunks > 0);
     NUMBER("LIST_CHUNKS", traits->list_chunks);
+    NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,

@@ -118,11 +118,24 @@ static void compare_health(WeirSolver *on_gpu, WeirSolver *on_cpu)
     assert_int_equal(a.lost_particles, b.lost_particles);
 }
 
-static void run_case(const WeirTestCase *chosen)
+// Begins anew with so many threads per particle, and with what else a test has changed of the solver's traits.
+static void begin_anew(WeirSolver *on_gpu, const WeirTestWorld *test, uint32_t lanes)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
+    solver->traits.lanes = lanes;
+    WeirParameters parameters = solver->common.parameters;
+    WeirConstants constants = solver->common.constants;
+    assert_int_equal(on_gpu->interface->configure(on_gpu, &parameters, &constants), WEIR_OK);
+    assert_int_equal(on_gpu->interface->set_state(on_gpu, &test->world.particles), WEIR_OK);
+}
+
+// `lanes` 0: as many threads per particle as the solver chooses.
+static void run_case(const WeirTestCase *chosen, uint32_t lanes)
 {
     WeirTestWorld test;
     chosen->build(&test);
     WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
+    if (lanes > 0) begin_anew(on_gpu, &test, lanes);
     WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
     compare(chosen->name, &test, on_gpu, on_cpu, 2e-5);
     take_steps(on_gpu, 1, INFINITY);
@@ -143,15 +156,29 @@ static void follows_the_cpu(void **state)
     const char *only = getenv("WEIR_TEST_CASE");
     (void)state;
     for (uint32_t n = 0; n < weir_test_case_count; ++n)
-        if (!only || strcmp(only, weir_test_cases[n].name) == 0) run_case(&weir_test_cases[n]);
+        if (!only || strcmp(only, weir_test_cases[n].name) == 0) run_case(&weir_test_cases[n], 0);
+}
+
+// One, two, four or eight threads share a particle's neighbours: a free body in a box, and emitters and drains.
+static void follows_the_cpu_with_any_number_of_lanes(void **state)
+{
+    (void)state;
+    uint32_t runs = 0;
+    for (uint32_t n = 0; n < weir_test_case_count; ++n) {
+        const WeirTestCase *chosen = &weir_test_cases[n];
+        if (strcmp(chosen->name, "body_3d") != 0 && strcmp(chosen->name, "tap_2d") != 0) continue;
+        for (uint32_t lanes = 1; lanes <= 8; lanes *= 2, ++runs) run_case(chosen, lanes);
+    }
+    assert_int_equal(runs, 8);
 }
 
 // Where particles outrun their lists before they may be sorted anew, the walk over cells finds the same neighbours: here
-// lists are made for a way of one quantum.
+// lists are made for a way of one quantum. Lanes share such a walk too.
 static void outrun_lists_lose_nobody(void **state)
 {
     (void)state;
     static const char *const names[] = {"dam_2d", "periodic_3d", "bodies_2d"};
+    static const uint32_t lanes[] = {1, 8, 4};
     for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
         WeirTestWorld test = weir_test_case(names[n]);
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
@@ -159,9 +186,7 @@ static void outrun_lists_lose_nobody(void **state)
         WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
         assert_int_equal(solver->traits.sort_interval, 4);
         solver->traits.least_allowance = solver->traits.most_allowance = 1;
-        WeirParameters parameters = solver->common.parameters;
-        WeirConstants constants = solver->common.constants;
-        assert_int_equal(on_gpu->interface->configure(on_gpu, &parameters, &constants), WEIR_OK);
+        begin_anew(on_gpu, &test, lanes[n]);
         uint32_t outrun = 0;
         for (int k = 0; k < 20; ++k) {
             take_steps(on_gpu, 3, INFINITY);
@@ -183,6 +208,7 @@ static void walks_find_what_lists_find(void **state)
 {
     (void)state;
     static const char *const names[] = {"dam_2d", "body_3d"};
+    static const uint32_t lanes[] = {2, 1};
     uint64_t own = gpu->limits.maxStorageBufferBindingSize;
     for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
         WeirTestWorld test = weir_test_case(names[n]);
@@ -191,6 +217,7 @@ static void walks_find_what_lists_find(void **state)
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
         gpu->limits.maxStorageBufferBindingSize = own;
         assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_chunks, 0);
+        begin_anew(on_gpu, &test, lanes[n]);
         take_steps(on_gpu, 40, INFINITY);
         take_steps(on_cpu, 40, INFINITY);
         compare(names[n], &test, on_gpu, on_cpu, 2e-3);
@@ -205,6 +232,7 @@ int main(void)
     gpu = weir_test_gpu(NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(follows_the_cpu),
+        cmocka_unit_test(follows_the_cpu_with_any_number_of_lanes),
         cmocka_unit_test(outrun_lists_lose_nobody),
         cmocka_unit_test(walks_find_what_lists_find),
     };
