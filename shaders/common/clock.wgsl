@@ -87,7 +87,7 @@ fn is_stepping() -> bool {
     return control.running == 1u && control.bad_step == 0xffffffffu;
 }
 
-// Between forces and continuity: the step gets its number and time, and the next one its length.
+// Between forces and finish: the step gets its number and time, and the next one its length.
 fn advance_clock() {
     if !is_stepping() {
         control.running = 0u;

@@ -1,5 +1,5 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
-// The later steps' is done by continuity. What is to be sorted stays in the state, the rest goes to a working copy.
+// The later steps' is done by finish. What is to be sorted stays in the state, the rest goes to a working copy.
 //
 // in:  coordinate, motion, id, kicked (rates of the last step in its second half), solid_state, local_place, control
 // out: coordinate, motion, counts and largest way in control

@@ -1,10 +1,10 @@
-// Acceleration from pressure, viscosity and body forces, with the kick: new velocities; shifting velocity; the fluid's
-// force on the particles of free bodies. The largest speed and acceleration of the fluid.
+// Acceleration from pressure, viscosity and body forces, with the kick: new velocities; shifting velocity; drho/dt; the
+// fluid's force on the particles of free bodies. The largest speed and acceleration of the fluid.
 //
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
-// out: kicked: new velocity and density; from particle_count on: shifting velocity and rate. Of particles of free bodies:
+// out: kicked: new velocity and density; from particle_count on: shifting velocity and drho/dt. Of particles of free bodies:
 //      force of contact and density; force of the fluid.
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
 @group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
@@ -14,14 +14,17 @@
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
 struct Sums {
-    pressure: Vector,   // of p_j, and what else acts along x, scaled to it
+    pressure: Vector,   // of p_j
     gradient: Vector,   // of 1
-    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid; with LAMINAR alone, else in pressure
+    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid
     laminar: Vector,    // of v, between fluid
     friction: Vector,   // of v, between fluid and no-slip solids
     clustering: Vector, // of (W / W(spacing))^4
     surface: f32,
     filling: f32,       // of W
+    divergence: f32,    // of v . x, where the particles are at the end of the step
+    laplacian: f32,     // of (1 - r / R) (p_j - p_i), between fluid
+    moment: Vector,     // of (1 - r / R) x, between fluid
     solid_gap: f32,     // the most by which fluid and a solid are closer than the brake's range, quanta
 }
 
@@ -51,6 +54,8 @@ struct Own {
     inverse_spacing_value: f32, // the same for all: not to be divided again for each pair
     soft: f32,
     inverse_density: f32,
+    pressure: f32,
+    second_half: f32, // quanta per m/s: how far a velocity moves a particle in the second half of the step
 }
 
 // Whether forces on solid particles are asked for.
@@ -59,12 +64,14 @@ const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
 fn own_of(own: vec4i, own_motion: vec4f) -> Own {
     let h = constants.smoothing_length * constants.inverse_quantum;
     return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)),
-               1.0 / constants.spacing_value, 1e-4 * h * h, 1.0 / (parameters.rest_density + own_motion.w));
+               1.0 / constants.spacing_value, 1e-4 * h * h, 1.0 / (parameters.rest_density + own_motion.w),
+               pressure_of(own_motion.w), 0.5 * control.dt * constants.inverse_quantum);
 }
 
 fn added(a: Sums, b: Sums) -> Sums {
     return Sums(a.pressure + b.pressure, a.gradient + b.gradient, a.viscous + b.viscous, a.laminar + b.laminar,
                 a.friction + b.friction, a.clustering + b.clustering, a.surface + b.surface, a.filling + b.filling,
+                a.divergence + b.divergence, a.laplacian + b.laplacian, a.moment + b.moment,
                 max(a.solid_gap, b.solid_gap));
 }
 
@@ -101,20 +108,14 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
         pressure = linear_pressure(neighbor.w);
     }
     let relative = own.velocity - vector_of(neighbor);
-    var along = slope * pressure;
     if VISCOUS {
-        let approach = both_fluid * dot(relative, offset) / (r_squared + own.soft);
-        if LAMINAR {
-            (*sums).viscous += approach * offset;
-        } else {
-            along -= constants.viscosity_factor * constants.inverse_quantum * approach;
-        }
+        (*sums).viscous += (both_fluid * dot(relative, offset) / (r_squared + own.soft)) * offset;
     }
     if LAMINAR {
         (*sums).laminar += both_fluid * relative;
     }
     (*sums).gradient += slope * offset;
-    (*sums).pressure += along * offset;
+    (*sums).pressure += (slope * pressure) * offset;
     if HAS_SOLIDS && acts && fluid == solid {
         if FRICTION {
             (*sums).friction += (slope * own.stick * sticks(group)) * relative;
@@ -127,22 +128,51 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
         (*sums).clustering += (slope * power4(shape * own.inverse_spacing_value)) * offset;
     }
     (*sums).surface += slope * r_squared;
+    if !FORCES_READ {
+        add_rates(sums, own, other, relative, offset, s, inverse_density, pressure);
+    }
+}
+
+// What a neighbour does to the density, over those within the support in the middle of the step: the rate belongs to the
+// places at the step's end, between two densities. `relative`: the velocity to it, if it is fluid.
+fn add_rates(sums: ptr<function, Sums>, own: Own, other: vec4i, relative: Vector, offset: Vector, s: f32,
+             inverse_density: f32, pressure: f32) {
+    let fluid = !HAS_SOLIDS || !is_solid(u32(other.w));
+    var velocity = relative;
+    if !fluid {
+        velocity = own.velocity - displacing_velocity(u32(other.w), place_of(other));
+    }
+    let end = offset + own.second_half * velocity;
+    let slope = kernel_slope(sqrt(dot(end, end)) * constants.inverse_support) * inverse_density;
+    (*sums).divergence += select(0.0, slope * dot(velocity, end), s < 1.0);
+    let weight = select(0.0, max(1.0 - s, 0.0) * inverse_density, fluid);
+    (*sums).laplacian += weight * (pressure - own.pressure);
+    (*sums).moment += weight * offset;
 }
 
 fn quanta_of_spacings(count: f32) -> f32 {
     return count * parameters.particle_spacing * constants.inverse_quantum;
 }
 
-// Own velocity of a particle of a solid, from where it is.
-fn solid_velocity(group: u32, place: Place) -> vec3f {
+// Velocity of a solid at one of its particles, from where that is.
+fn motion_of_solid(group: u32, place: Place) -> vec3f {
     let n = group - GROUP_SOLID;
-    let surface = solid_table[n].surface_velocity.xyz;
     if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
-        return surface;
+        return vec3f(0.0);
     }
     let center = coordinate_of(solid_state[NOW + n].position.xyz - constants.origin.xyz);
     let arm = wide(Vector(shortest(place - center)) * constants.quantum);
-    return surface + solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
+    return solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
+}
+
+// With what its surface slides.
+fn solid_velocity(group: u32, place: Place) -> vec3f {
+    return solid_table[group - GROUP_SOLID].surface_velocity.xyz + motion_of_solid(group, place);
+}
+
+// A surface that slides along itself displaces no fluid.
+fn displacing_velocity(group: u32, place: Place) -> Vector {
+    return vector_of(vec4f(motion_of_solid(group, place), 0.0));
 }
 
 // Of fluid and a solid's particle, one of each, with the solid's own velocity: motion of solids is as the fluid sees it.
@@ -193,11 +223,16 @@ fn pressure_scale(excess: f32) -> f32 {
     return -constants.quantum * constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
 }
 
-// By pressure and viscosity. `own_pressure` as it enters the sum; `inside`: of fluid whose support is full.
-fn acceleration_of(sums: Sums, excess: f32, own_pressure: f32, inside: bool) -> Vector {
+// By pressure. `own_pressure` as it enters the sum.
+fn pressure_acceleration(sums: Sums, excess: f32, own_pressure: f32) -> Vector {
+    return pressure_scale(excess) * (sums.pressure + own_pressure * sums.gradient);
+}
+
+// By viscosity. `inside`: of fluid whose support is full.
+fn viscous_acceleration(sums: Sums, excess: f32, inside: bool) -> Vector {
     let scale = constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
     var sum = Vector();
-    if VISCOUS && LAMINAR {
+    if VISCOUS {
         sum += select(constants.viscosity_factor, constants.artificial_factor, inside) * sums.viscous;
     }
     if LAMINAR {
@@ -206,7 +241,7 @@ fn acceleration_of(sums: Sums, excess: f32, own_pressure: f32, inside: bool) -> 
     if FRICTION {
         sum += constants.friction_factor * sums.friction;
     }
-    return scale * sum + pressure_scale(excess) * (sums.pressure + own_pressure * sums.gradient);
+    return scale * sum;
 }
 
 // WeirToolKind
@@ -245,6 +280,22 @@ fn shift_of(sums: Sums) -> vec4f {
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
 }
 
+// drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to
+// the divergence is the Laplacian of the pressure. The same operator diffuses the density. docs/wcsph.md, "Continuity".
+// `shift_rate`: what shifting and the like add, drho/dt / rho.
+fn density_rate(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
+    let dt = control.dt;
+    let rho = parameters.rest_density + excess;
+    let compress = constants.particle_mass * constants.gradient_factor * constants.quantum;
+    let diffusion = min(parameters.density_diffusion * constants.smoothing_length / constants.sound_speed,
+                        constants.diffusion_limit / dt - dt);
+    // p_j - p_i less what the gradient of the pressure makes of their distance, which one side alone would keep
+    let slant = dot(sums.moment, diffusion * parameters.rest_density * vector_of(parameters.gravity) - dt * rho * push);
+    let spread = (dt + diffusion) * sums.laplacian + constants.quantum * slant;
+    let pull = dt * parameters.central_force * f32(DIMENSION);
+    return rho * (compress * sums.divergence + shift_rate + pull) + constants.laplacian_factor * spread;
+}
+
 // Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
 // damped, never attracting.
 fn contact_force(own: vec4i) -> Vector {
@@ -276,7 +327,8 @@ fn contact_force(own: vec4i) -> Vector {
 
 fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
     let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
-    var acceleration = acceleration_of(sums, own_motion.w, linear_pressure(own_motion.w), false);
+    var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
+        + viscous_acceleration(sums, own_motion.w, false);
     if meets_barrier(sums, own_motion) {
         acceleration += barrier_of(own, own_motion);
     }
@@ -338,7 +390,8 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     let pressure = pressure_of(own_motion.w);
     let acts = select(pressure, -pressure, TENSION_CONTROL && inside && pressure < 0.0);
     let velocity = vector_of(own_motion);
-    var acceleration = acceleration_of(sums, own_motion.w, acts, inside)
+    let push = pressure_acceleration(sums, own_motion.w, acts);
+    var acceleration = push + viscous_acceleration(sums, own_motion.w, inside)
         + body_forces(position_of(place_of(own)), velocity);
     if meets_barrier(sums, own_motion) {
         acceleration += barrier_of(own, own_motion);
@@ -368,6 +421,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if full * sums.surface < SPRAY_LIMIT * f32(DIMENSION) && lack > 0.0 {
         shift.w = lack / (parameters.rest_density + own_motion.w) * constants.sound_speed / constants.smoothing_length;
     }
+    shift.w = density_rate(sums, own_motion.w, push, shift.w);
     kicked[constants.particle_count + i] = shift;
     take_speed(dot(new_velocity, new_velocity));
     if free {

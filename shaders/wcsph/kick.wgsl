@@ -1,5 +1,5 @@
-// The particles of moving solids: their velocity as continuity needs it, in the middle of the step with the solid's new
-// velocity, and their way to where the solid moves. Fluid is kicked by forces.
+// The particles of moving solids: their velocity in the middle of the step with the solid's new velocity,
+// and their way to where the solid moves. Fluid is kicked by forces.
 //
 // in:  coordinate, solid_slot, solid_state, local_place, control
 // out: kicked; its second half: the way, in quanta

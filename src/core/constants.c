@@ -183,9 +183,10 @@ static Lattice densest_lattice(double spacing, uint32_t dimension)
     return (Lattice){{0.5 * side, 0.5 * sqrt(3.0) * side, 0.0}, true};
 }
 
-// Over the sites: V W with the middle included, and V (-F) r^2 / d. Both are 1 but for the kernel's quadrature error.
+// Over the sites: V W with the middle included and V (-F) r^2 / d, which are 1 but for the kernel's quadrature error; and
+// V (1 - r / R) r^2 / d.
 typedef struct LatticeSums {
-    double filling, laplacian;
+    double filling, laplacian, compact;
 } LatticeSums;
 
 static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension, Lattice lattice)
@@ -195,7 +196,7 @@ static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimen
     int reach[3] = {0, 0, 0};
     for (uint32_t axis = 0; axis < dimension; ++axis)
         reach[axis] = (int)fmin(ceil(support / lattice.cell[axis]), 100.0);
-    LatticeSums sums = {0.0, 0.0};
+    LatticeSums sums = {0.0, 0.0, 0.0};
     for (int k = -reach[2]; k <= reach[2]; ++k) {
         for (int j = -reach[1]; j <= reach[1]; ++j) {
             for (int i = -reach[0]; i <= reach[0]; ++i) {
@@ -205,6 +206,7 @@ static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimen
                 sums.filling += volume * weir_smoothing_value(parameters->kernel, dimension, r, support);
                 sums.laplacian -= volume * r * r / dimension *
                                   weir_smoothing_gradient(parameters->kernel, dimension, r, support);
+                sums.compact += volume * r * r / dimension * fmax(1.0 - r / support, 0.0);
             }
         }
     }
@@ -288,6 +290,10 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     LatticeSums densest = lattice_sums(parameters, dimension, densest_lattice(spacing, dimension));
     constants->shifting_limit = (float)shifting_limit(parameters, dimension);
     constants->lattice_filling = (float)resting.filling;
+    constants->laplacian_factor = (float)(2.0 * (double)constants->particle_mass / densest.compact);
+    // Its fastest wave has the rate 16 / R^2 (15 to 15.9 on lattices at all supports); beyond 2 / rate it overshoots for ever.
+    constants->diffusion_limit =
+        (float)(1.9 / 16.0 * support * support / (parameters->sound_speed * parameters->sound_speed));
     constants->sound_speed = parameters->sound_speed;
     constants->search_radius = (float)support;
     constants->speed_limit = 4.0f * parameters->sound_speed; // docs/wcsph.md

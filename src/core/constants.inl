@@ -29,6 +29,8 @@ WEIR_CONSTANT_NUMBER(gradient_factor, "wcsph: normalisation of (dW/dr) / r, nega
 WEIR_CONSTANT_NUMBER(spacing_value, "wcsph: W at one particle spacing / kernel_factor, for shifting")
 WEIR_CONSTANT_NUMBER(shifting_limit, "wcsph: flow speed times time step beyond which shifting overshoots, m")
 WEIR_CONSTANT_NUMBER(lattice_filling, "wcsph: sum of V W over a lattice at rest")
+WEIR_CONSTANT_NUMBER(laplacian_factor, "wcsph: the Laplacian over sum_j (1 - r / R) (f_j - f_i) / rho_j, exact on the densest lattice, kg/m^(d+2)")
+WEIR_CONSTANT_NUMBER(diffusion_limit, "wcsph: most of dt (dt + delta h / c0) for which the density's diffusion is stable, s^2")
 WEIR_CONSTANT_NUMBER(sound_speed, "wcsph: c0, chosen from the scene if the parameter is 0, m/s")
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(laminar_factor, "wcsph: friction_factor if laminar viscosity is the larger one, else 0, Pa s")

@@ -27,7 +27,7 @@ WEIR_NUMBER(expected_speed, "m/s", 0.0, 0.0, 1e4, "wcsph", 0,
             "Largest speed expected, for the speed of sound. 0: estimated from the scene.")
 WEIR_NUMBER(artificial_viscosity, "1", 0.01, 0.0, 10.0, "wcsph", 1,
             "Strength alpha of Monaghan's artificial viscosity between fluid particles.")
-WEIR_NUMBER(density_diffusion, "1", 0.1, 0.0, 1.0, "wcsph", 1,
+WEIR_NUMBER(density_diffusion, "1", 0.15, 0.0, 1.0, "wcsph", 1,
             "Strength delta of the density diffusion of Fourtakas et al. 2019.")
 WEIR_NUMBER(shifting, "1", 2.0, 0.0, 20.0, "wcsph", 1,
             "Strength of the particle shifting inside the fluid, 1 as in Sun et al. 2017; 0: none.")

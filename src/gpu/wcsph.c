@@ -35,7 +35,7 @@ static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     weir_record(recorder, WEIR_WCSPH_NEIGHBORS);
 }
 
-// The first step's length and the first half of its move; later steps find theirs done by continuity.
+// The first step's length and the first half of its move; later steps find theirs done by finish.
 static void record_begin(const WeirRecorder *recorder)
 {
     weir_record(recorder, WEIR_WCSPH_BEGIN);
@@ -59,7 +59,7 @@ static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     } else {
         weir_record(recorder, WEIR_WCSPH_TIME_STEP);
     }
-    weir_record(recorder, WEIR_WCSPH_CONTINUITY);
+    weir_record(recorder, WEIR_WCSPH_FINISH);
 }
 
 void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how)

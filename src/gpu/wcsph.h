@@ -4,11 +4,11 @@
 //     ^                                                  |
 //     |                              walls, forces (with kick), solid_forces, solids | time_step, kick
 //     |                                                  v
-//     +-- continuity (with finish and the next step's drift) -- kicked
+//     +-- finish (with the next step's drift) -- kicked
 //
 // `coordinate` and `motion` hold three copies of the particles: the state between calls, and two working copies, one
 // read and one written in turn by the steps of a batch. Particles keep their slots until the device finds that lists and
-// cells might not last (common/clock.wgsl, judge_order): then continuity leaves the particles in the state, from where
+// cells might not last (common/clock.wgsl, judge_order): then finish leaves the particles in the state, from where
 // they are sorted. A batch starts with begin and drift; its last step ends in the state, without the next one's drift.
 #pragma once
 
@@ -68,7 +68,7 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_SOLIDS,
     WEIR_WCSPH_TIME_STEP,
     WEIR_WCSPH_KICK,
-    WEIR_WCSPH_CONTINUITY,
+    WEIR_WCSPH_FINISH,
     WEIR_WCSPH_BEGIN_READ,
     WEIR_WCSPH_LOAD,
     WEIR_WCSPH_STORE,

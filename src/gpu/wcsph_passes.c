@@ -38,7 +38,7 @@ SHADER(wcsph_solid_forces)
 SHADER(wcsph_solids)
 SHADER(wcsph_time_step)
 SHADER(wcsph_kick)
-SHADER(wcsph_continuity)
+SHADER(wcsph_finish)
 SHADER(wcsph_first_step)
 SHADER(wcsph_health)
 
@@ -67,8 +67,6 @@ static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
 static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists, NULL};
 static const char *const pairs_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors, NULL};
-static const char *const finish_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors,
-                                          weir_wgsl_common_drift, NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
 #define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name
@@ -112,8 +110,8 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                          BIT(coordinate) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                              BIT(control),
                          BIT(kicked), WEIR_ITEMS_SOLIDS},
-    [WEIR_WCSPH_CONTINUITY] = {WCSPH(continuity), NULL, finish_part, BIT(id) | SEARCH,
-                               PARTICLES | BIT(kicked) | BIT(control), WEIR_ITEMS_SHARES},
+    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, drift_part, BIT(id) | BIT(kicked), PARTICLES | BIT(control),
+                           WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
@@ -192,7 +190,6 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("BRANCH_FREE", traits->dimension == 2);
     NUMBER("KERNEL", parameters->kernel);
     FLAG("TAIT", parameters->equation_of_state == WEIR_EQUATION_TAIT);
-    FLAG("DIFFUSION", parameters->density_diffusion > 0.0f);
     FLAG("SHIFTING", parameters->shifting > 0.0f);
     FLAG("LAMINAR", constants->laminar_factor > 0.0f);
     FLAG("FRICTION", constants->friction_factor > 0.0f);
@@ -231,7 +228,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
 #undef APPEND
 #define PASS(name) (1u << WEIR_WCSPH_##name)
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
-                      PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(CONTINUITY) | PASS(BEGIN_READ) |
+                      PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(FINISH) | PASS(BEGIN_READ) |
                       PASS(FORCES_READ) | PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);

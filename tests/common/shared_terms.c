@@ -193,18 +193,18 @@ static void continuity_of_an_expansion(const WeirBackend *backend)
 static void bulge(const double place[3], float *density, float velocity[3])
 {
     (void)velocity;
-    *density = (float)(1000 + 200 * place[0] * place[0]);
+    *density = (float)(1000 + 60 * place[0] * place[0]);
 }
 
-// delta h c0 Lap rho of rho0 + a x^2: 2 a delta h c0. Pressure moves the fluid as well within the step, its share is below
-// c0 dt / (delta h) = 2 %.
+// delta h c0 Lap rho of rho0 + a x^2, and as much as the pressure is about to move the fluid apart: 2 a c0 (delta h + c0 dt). The
+// operator is exact on the densest lattice and 2 % off on this one; it weighs by volumes, which differ by 1 %.
 static void diffusion_of_a_density_bulge(const WeirBackend *backend)
 {
     WeirScene *scene = block(2);
     weir_test_set(scene, "time_step", 1e-4);
     weir_test_set(scene, "density_diffusion", 1);
     WeirSim *sim = start(scene, backend, bulge);
-    double expected = 400 * weir_sim_constants(sim)->smoothing_length * 20;
+    double expected = 120 * 20 * (weir_sim_constants(sim)->smoothing_length + 20 * 1e-4);
     check_rate(sim, bulge, 1e-4, expected, 0.03 * expected);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);

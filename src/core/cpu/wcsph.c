@@ -1,8 +1,8 @@
 // The method `wcsph` on the CPU: the reference that judges the GPU. docs/wcsph.md has the step and its sources.
 //
-//   state --drift--> moved --count, scan, scatter--> sorted --walls, forces, solids, kick, continuity--> rates
-//     ^                                                                                                   |
-//     +------------------------------------- finish, time_step -------------------------------------------+
+//   state --drift--> moved --count, scan, scatter--> sorted --walls, forces, solids--> rates
+//     ^                                                                               |
+//     +------------------------ kick, finish, time_step ------------------------------+
 //
 // Every sum has one order and every choice depends on values alone, so the bits depend on neither threads nor
 // compiler.
@@ -18,16 +18,9 @@
 enum { STEPS_PER_SNAPSHOT = 64 };
 
 static const char *const pass_names[WEIR_WCSPH_PASSES] = {
-    [WEIR_WCSPH_DRIFT] = "drift",
-    [WEIR_WCSPH_COUNT] = "count",
-    [WEIR_WCSPH_SCAN] = "scan",
-    [WEIR_WCSPH_SCATTER] = "scatter",
-    [WEIR_WCSPH_WALLS] = "walls",
-    [WEIR_WCSPH_FORCES] = "forces",
-    [WEIR_WCSPH_SOLIDS] = "solids",
-    [WEIR_WCSPH_KICK] = "kick",
-    [WEIR_WCSPH_CONTINUITY] = "continuity",
-    [WEIR_WCSPH_FINISH] = "finish",
+    [WEIR_WCSPH_DRIFT] = "drift",         [WEIR_WCSPH_COUNT] = "count", [WEIR_WCSPH_SCAN] = "scan",
+    [WEIR_WCSPH_SCATTER] = "scatter",     [WEIR_WCSPH_WALLS] = "walls", [WEIR_WCSPH_FORCES] = "forces",
+    [WEIR_WCSPH_SOLIDS] = "solids",       [WEIR_WCSPH_KICK] = "kick",   [WEIR_WCSPH_FINISH] = "finish",
     [WEIR_WCSPH_TIME_STEP] = "time_step",
 };
 
@@ -144,6 +137,8 @@ static void point_to_sorted(WeirWcsph *solver)
     }
     data->excess = solver->sorted.excess;
     data->rate = solver->sorted.rate;
+    data->dt = solver->dt;
+    data->second_half = 0.5f * solver->dt * solver->constants.inverse_quantum;
 }
 
 // Moves the whole particle data to its cell, in order of id.
@@ -155,6 +150,8 @@ static void scatter(WeirWcsph *solver)
     if (chunk < WEIR_WCSPH_CELL_CHUNK) chunk = WEIR_WCSPH_CELL_CHUNK; // long copies are the fast ones
     weir_pool_run(solver->pool, cells, chunk, gather_chunk, solver);
     weir_wcsph_solid_velocities(solver, &solver->sorted, true, solver->sorted.velocity);
+    // A surface that slides along itself displaces no fluid.
+    weir_wcsph_solid_velocities(solver, &solver->sorted, false, solver->data.new_velocity);
 }
 
 // ---- Pair passes ----
@@ -165,22 +162,9 @@ static void forces_chunk(void *context, uint32_t begin, uint32_t end)
     solver->passes->forces(&solver->data, begin, end);
 }
 
-// In the chunks of `continuity`, which make the same groups of lanes.
 static void forces(WeirWcsph *solver)
 {
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, forces_chunk, solver);
-}
-
-static void continuity_chunk(void *context, uint32_t begin, uint32_t end)
-{
-    WeirWcsph *solver = context;
-    solver->passes->continuity(&solver->data, begin, end);
-}
-
-static void continuity(WeirWcsph *solver)
-{
-    solver->data.second_half = 0.5f * solver->dt * solver->constants.inverse_quantum;
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, continuity_chunk, solver);
 }
 
 // ---- The step ----
@@ -207,7 +191,6 @@ static void take_step(WeirWcsph *solver)
     evaluate(solver);
     timed(solver, WEIR_WCSPH_SOLIDS, weir_wcsph_solids);
     timed(solver, WEIR_WCSPH_KICK, weir_wcsph_kick);
-    timed(solver, WEIR_WCSPH_CONTINUITY, continuity);
     timed(solver, WEIR_WCSPH_FINISH, weir_wcsph_finish);
     timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step);
 }

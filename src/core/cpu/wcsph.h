@@ -51,7 +51,6 @@ typedef enum WeirWcsphPass {
     WEIR_WCSPH_FORCES,
     WEIR_WCSPH_SOLIDS,
     WEIR_WCSPH_KICK,
-    WEIR_WCSPH_CONTINUITY,
     WEIR_WCSPH_FINISH,
     WEIR_WCSPH_TIME_STEP,
     WEIR_WCSPH_PASSES
@@ -68,7 +67,6 @@ typedef struct WeirWcsph {
     WeirWcsphParticles sorted; // the same by cell, empty slots last
     uint32_t active;           // sorted particles that are not empty
     float *sums;               // one block for all arrays of `data` that are not of `sorted`
-    uint64_t *seen;            // of `data`
     WeirWcsphData data;        // of the sorted particles
     WeirWorld world;           // without particles
     WeirSolidState *solids;

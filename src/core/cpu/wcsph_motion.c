@@ -160,7 +160,7 @@ void weir_wcsph_drift(WeirWcsph *solver)
 
 // ---- kick ----
 
-// Of all, since solids get theirs after it; an inlet's particles keep their velocity.
+// An inlet's particles keep their velocity.
 static void kick_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
@@ -179,8 +179,6 @@ static void kick_chunk(void *context, uint32_t begin, uint32_t end)
 void weir_wcsph_kick(WeirWcsph *solver)
 {
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, kick_chunk, solver);
-    // A surface that slides along itself displaces no fluid.
-    weir_wcsph_solid_velocities(solver, &solver->sorted, false, solver->data.new_velocity);
 }
 
 // ---- finish ----

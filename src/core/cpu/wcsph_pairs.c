@@ -1,4 +1,4 @@
-// Walls, forces and continuity of `wcsph` on the CPU: docs/wcsph.md has the formulas, shaders/wcsph/ the mirrors.
+// Walls and forces of `wcsph` on the CPU: docs/wcsph.md has the formulas, shaders/wcsph/ the mirrors.
 //
 // One vector holds neighbouring particles i, every candidate j is broadcast to it (runs.h). A candidate outside the
 // support adds exactly 0, so the sums have the same bits for any number of lanes.
@@ -8,6 +8,8 @@
 #include "core/cpu/wcsph_pairs.h"
 #include "core/cpu/pairs.h"
 #include "core/cpu/runs.h"
+
+#include <math.h>
 
 // Name of the variant that this compilation makes; the build compiles this file once per instruction set.
 #ifndef WEIR_WCSPH_PASSES
@@ -194,39 +196,6 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
     }
 }
 
-// ---- What a group saw ----
-
-// Of every BLOCK candidates the bits of those within the support of some lane: `forces` tests and notes, `continuity`
-// visits these alone. Where a crowd has too many blocks for its words, the rest is tested again.
-enum { BLOCK = 64 };
-
-typedef struct Seen {
-    uint64_t *word, *end;
-} Seen;
-
-INLINE Seen seen_by(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin)
-{
-    uint64_t *word = data->seen + (size_t)WEIR_SEEN_WORDS * begin;
-    return (Seen){word, word + (size_t)WEIR_SEEN_WORDS * group->lanes};
-}
-
-INLINE void note_seen(Seen *seen, uint64_t bits)
-{
-    if (seen->word < seen->end) *seen->word++ = bits;
-}
-
-// The bits of the next block, which has `count` candidates.
-INLINE uint64_t next_seen(Seen *seen, uint32_t count)
-{
-    if (seen->word < seen->end) return *seen->word++;
-    return UINT64_MAX >> (BLOCK - count);
-}
-
-INLINE uint32_t block_end(const WeirRun *run, uint32_t first)
-{
-    return run->end - first < BLOCK ? run->end : first + BLOCK;
-}
-
 // ---- forces ----
 
 // A last barrier keeps fast fluid out of walls. Nearer than 0.85 spacings, where fluid at rest hardly comes, solid
@@ -243,22 +212,25 @@ static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
-    Vector pressure;   // sum p_j / rho_j F^ x
-    Vector gradient;   // sum 1 / rho_j F^ x
-    Vector clustering; // sum 1 / rho_j (W / W(spacing))^4 F^ x
-    Vector viscous;    // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, between fluid
-    Vector laminar;    // sum 1 / rho_j F^ v, between fluid
-    Vector friction;   // the same between fluid and no-slip solids
-    Vector barrier;    // sum of barrier and brake along x / r, between fluid and solid
-    WeirLanes surface; // sum 1 / rho_j F^ r^2
-    WeirLanes filling; // sum 1 / rho_j W^
+    Vector pressure;      // sum p_j / rho_j F^ x
+    Vector gradient;      // sum 1 / rho_j F^ x
+    Vector clustering;    // sum 1 / rho_j (W / W(spacing))^4 F^ x
+    Vector viscous;       // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, between fluid
+    Vector laminar;       // sum 1 / rho_j F^ v, between fluid
+    Vector friction;      // the same between fluid and no-slip solids
+    Vector barrier;       // sum of barrier and brake along x / r, between fluid and solid
+    WeirLanes surface;    // sum 1 / rho_j F^ r^2
+    WeirLanes filling;    // sum 1 / rho_j W^
+    WeirLanes divergence; // sum 1 / rho_j F^ v . x where the particles are at the end of the step
+    WeirLanes laplacian;  // sum 1 / rho_j (1 - s) (p_j - p_i), between fluid
+    Vector moment;        // sum 1 / rho_j (1 - s) x, between fluid
 } ForceSums;
 
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
     float inverse_support, inverse_spacing, soft;
     bool viscous, laminar, friction, clustering; // terms that are not switched off
-    WeirLanes stick, barrier_reach;
+    WeirLanes support2, stick, barrier_reach, pressure;
     Vector seen_velocity, velocity;
 } ForceLanes;
 
@@ -277,7 +249,9 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
         .clustering = data->parameters->shifting != 0.0f,
         .barrier_reach =
             weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
+        .support2 = weir_lanes_fill(1.0f / (constants->inverse_support * constants->inverse_support)),
         .stick = weir_lanes_load(data->stick + begin),
+        .pressure = weir_lanes_load(data->pressure + begin),
         .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
         .velocity = load(data->velocity, begin, variant),
     };
@@ -298,6 +272,26 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes near = rest_to(1.0f, r * inverse_brake) * (brake_strength / data->parameters->courant);
     WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
+}
+
+// What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
+// places at the step's end, between two densities.
+INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
+                      WeirLanes s, Variant variant, ForceSums *sums)
+{
+    const WeirLanes zero = {0};
+    bool fluid = data->is_fluid[j] != 0.0f;
+    Vector v =
+        less(own->velocity, fluid ? data->velocity : (const float *const *)data->new_velocity, j, variant);
+    Vector end = x;
+    add_scaled(&end, weir_lanes_fill(data->second_half), v, variant);
+    WeirLanes at_end = weir_lanes_sqrt(dot(end, end, variant)) * own->inverse_support;
+    WeirLanes slope = kernel_slope(at_end, variant) * data->inverse_density[j];
+    sums->divergence += weir_lanes_select((WeirMask)(r2 < own->support2), slope * dot(v, end, variant), zero);
+    if (!fluid) return;
+    WeirLanes weight = rest_to(1.0f, s) * data->inverse_density[j];
+    sums->laplacian += weight * (data->pressure[j] - own->pressure);
+    add_scaled(&sums->moment, weight, x, variant);
 }
 
 // Adds candidate j at x = x_i - x_j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of
@@ -324,64 +318,68 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     sums->surface += slope * r2;
     if (own->clustering)
         add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
+    add_rates(data, own, j, x, r2, s, variant, sums);
 }
 
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                             Variant variant, bool solids)
 {
-    float inverse_support = data->constants->inverse_support;
-    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
     ForceLanes own = force_lanes(data, begin, variant);
-    Seen seen = seen_by(data, group, begin);
     ForceSums sums = {0};
     for (const WeirRun *run = group->run; run < group->run + group->run_count; ++run) {
         WeirMask place[3];
         load_place(data, begin, run, place);
-        for (uint32_t first = run->begin, end; first < run->end; first = end) {
-            end = block_end(run, first);
-            uint64_t bits = 0;
-            for (uint32_t j = first; j < end; ++j) {
-                if (solids && data->is_fluid[j] == 0.0f) continue;
-                Vector x = offset_to(data, place, j, variant);
-                WeirLanes r2 = dot(x, x, variant);
-                if (!weir_lanes_any_below(r2, support2)) continue; // it would add 0 to every lane
-                bits |= UINT64_C(1) << (j - first);
-                add_forces(data, &own, j, x, r2, variant, solids, &sums);
-            }
-            if (!solids) note_seen(&seen, bits);
+        for (uint32_t j = run->begin; j < run->end; ++j) {
+            if (solids && data->is_fluid[j] == 0.0f) continue;
+            Vector x = offset_to(data, place, j, variant);
+            WeirLanes r2 = dot(x, x, variant);
+            if (!weir_lanes_any_below(r2, own.support2)) continue; // it would add 0 to every lane
+            add_forces(data, &own, j, x, r2, variant, solids, &sums);
         }
     }
     return sums;
 }
 
-// Acceleration by pressure and viscosity. `inside`: lanes of fluid whose support is full, for which laminar viscosity has
-// Morris' form; tension control makes their negative pressure act by its difference.
-INLINE Vector acceleration_of(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
-                              WeirMask inside, Variant variant)
+// By pressure. `inside`: lanes of fluid whose support is full, where tension control makes a negative pressure act by its
+// difference.
+INLINE Vector pressure_acceleration(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
+                                    WeirMask inside, Variant variant)
 {
     const WeirConstants *constants = data->constants;
     const WeirLanes zero = {0};
     WeirLanes own = weir_lanes_load(data->pressure + begin);
     if (data->parameters->tension_control == WEIR_TENSION_CONTROL_ON)
         own = weir_lanes_select(inside & (WeirMask)(own < zero), -own, own);
+    WeirLanes scale = -(constants->particle_mass * weir_lanes_load(data->inverse_density + begin) *
+                        constants->gradient_factor) *
+                      constants->quantum;
+    Vector a = {{0}, {0}, {0}};
+    WeirLanes *sum = &a.x;
+    const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x;
+    for (int axis = 0; axis < (variant.three_dimensional ? 3 : 2); ++axis)
+        sum[axis] = scale * (p[axis] + own * g[axis]);
+    return a;
+}
+
+// By viscosity and the barrier. For lanes `inside` laminar viscosity has Morris' form.
+INLINE void add_viscous_forces(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
+                               WeirMask inside, Variant variant, Vector *acceleration)
+{
+    const WeirConstants *constants = data->constants;
+    const WeirLanes zero = {0};
     WeirLanes common = constants->particle_mass * weir_lanes_load(data->inverse_density + begin) *
                        constants->gradient_factor;
-    WeirLanes pressure = -common * constants->quantum;
     WeirLanes friction = common * constants->friction_factor;
     WeirLanes laminar = weir_lanes_select(inside, common * constants->laminar_factor, zero);
     WeirLanes viscous = common * weir_lanes_select(inside, weir_lanes_fill(constants->artificial_factor),
                                                    weir_lanes_fill(constants->viscosity_factor));
     float sound = constants->sound_speed;
     float barrier = sound * sound / data->parameters->particle_spacing;
-    Vector a = {{0}, {0}, {0}};
-    WeirLanes *sum = &a.x;
-    const WeirLanes *p = &sums->pressure.x, *g = &sums->gradient.x, *v = &sums->viscous.x;
-    const WeirLanes *l = &sums->laminar.x, *f = &sums->friction.x, *b = &sums->barrier.x;
-    for (int axis = 0; axis < (variant.three_dimensional ? 3 : 2); ++axis) {
-        sum[axis] = pressure * (p[axis] + own * g[axis]) + viscous * v[axis] + laminar * l[axis] +
-                    friction * f[axis] + barrier * b[axis];
-    }
-    return a;
+    WeirLanes *sum = &acceleration->x;
+    const WeirLanes *v = &sums->viscous.x, *l = &sums->laminar.x, *f = &sums->friction.x,
+                    *b = &sums->barrier.x;
+    for (int axis = 0; axis < (variant.three_dimensional ? 3 : 2); ++axis)
+        sum[axis] += viscous * v[axis] + laminar * l[axis] + friction * f[axis] + barrier * b[axis];
 }
 
 // Acceleration that the pointer tool adds to a particle: falls off linearly to zero at the tool's radius.
@@ -456,6 +454,28 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
     return weir_lanes_select(spray, lack * weir_lanes_load(data->inverse_density + begin) * c0 / h, rate);
 }
 
+// drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to
+// the divergence is the Laplacian of the pressure. The same operator diffuses the density. docs/wcsph.md, "Continuity".
+INLINE WeirLanes rate_of(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin, Vector push,
+                         WeirLanes shift_rate, Variant variant)
+{
+    const WeirConstants *constants = data->constants;
+    const WeirParameters *parameters = data->parameters;
+    const float *gravity = parameters->gravity;
+    float compress = constants->particle_mass * constants->gradient_factor * constants->quantum;
+    WeirLanes rho = weir_lanes_load(data->excess + begin) + parameters->rest_density, gain = rho * data->dt;
+    float diffusion = parameters->density_diffusion * constants->smoothing_length / constants->sound_speed;
+    diffusion = fminf(diffusion, constants->diffusion_limit / data->dt - data->dt);
+    float weight = diffusion * parameters->rest_density;
+    // p_j - p_i less what the gradient of the pressure makes of their distance, which one side alone would keep
+    WeirLanes slant = sums->moment.x * (weight * gravity[0] - gain * push.x) +
+                      sums->moment.y * (weight * gravity[1] - gain * push.y);
+    if (variant.three_dimensional) slant += sums->moment.z * (weight * gravity[2] - gain * push.z);
+    WeirLanes spread = (data->dt + diffusion) * sums->laplacian + constants->quantum * slant;
+    float pull = data->dt * parameters->central_force * (float)constants->dimension;
+    return rho * (compress * sums->divergence + shift_rate + pull) + constants->laplacian_factor * spread;
+}
+
 INLINE void fluid_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                         Variant variant)
 {
@@ -466,13 +486,15 @@ INLINE void fluid_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
     WeirLanes surface = full * sums.surface, rate;
     WeirMask inside = (WeirMask)(surface >= 0.95f * (float)constants->dimension);
     WeirMask fluid = chosen(data->is_fluid, begin, group->lanes);
-    Vector acceleration = acceleration_of(data, &sums, begin, inside, variant);
+    Vector push = pressure_acceleration(data, &sums, begin, inside, variant), acceleration = push;
+    add_viscous_forces(data, &sums, begin, inside, variant, &acceleration);
     add_body_forces(data, begin, &acceleration, variant);
     Vector shift = shift_of(data, &sums, inside, &rate, variant);
     rate = shift_rate_of(data, &sums, begin, surface, rate);
+    rate = rate_of(data, &sums, begin, push, rate, variant);
     store_where(data->acceleration, begin, acceleration, fluid);
     store_where(data->shift, begin, shift, fluid);
-    weir_lanes_store_where(data->shift_rate + begin, rate, fluid);
+    weir_lanes_store_where(data->rate + begin, rate, fluid);
     if (constants->tool_kind == WEIR_TOOL_NONE) return;
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
         if (fluid[lane]) add_tool(data, begin + lane);
@@ -485,71 +507,21 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
     if (any_set(data->is_fluid, begin, group->lanes)) fluid_group(data, group, begin, variant);
     if (any_set(data->needs_force, begin, group->lanes)) {
         ForceSums sums = sum_forces(data, group, begin, variant, true);
-        store_where(data->acceleration, begin, acceleration_of(data, &sums, begin, (WeirMask){0}, variant),
-                    chosen(data->needs_force, begin, group->lanes));
+        Vector acceleration = pressure_acceleration(data, &sums, begin, (WeirMask){0}, variant);
+        add_viscous_forces(data, &sums, begin, (WeirMask){0}, variant, &acceleration);
+        store_where(data->acceleration, begin, acceleration, chosen(data->needs_force, begin, group->lanes));
     }
-}
-
-// ---- continuity with density diffusion (Fourtakas et al. 2019) ----
-
-// Where particles are at the end of the step, so that the rate is that of the middle between two densities; over those seen by
-// `forces`, in the middle of the step.
-INLINE void continuity_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
-                             Variant variant)
-{
-    const WeirConstants *constants = data->constants;
-    const WeirParameters *parameters = data->parameters;
-    float inverse_support = constants->inverse_support, c0 = constants->sound_speed;
-    float hydrostatic[3]; // density by height, per quantum
-    for (int axis = 0; axis < 3; ++axis) {
-        hydrostatic[axis] =
-            parameters->rest_density / (c0 * c0) * parameters->gravity[axis] * constants->quantum;
-    }
-    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
-    WeirLanes own = weir_lanes_load(data->excess + begin), rho = own + parameters->rest_density;
-    Vector vi = load((const float *const *)data->new_velocity, begin, variant);
-    WeirLanes divergence = {0}, diffusion = {0};
-    Seen seen = seen_by(data, group, begin);
-    for (const WeirRun *run = group->run; run < group->run + group->run_count; ++run) {
-        WeirMask place[3];
-        load_place(data, begin, run, place);
-        for (uint32_t first = run->begin, end; first < run->end; first = end) {
-            end = block_end(run, first);
-            for (uint64_t bits = next_seen(&seen, end - first); bits != 0; bits &= bits - 1) {
-                uint32_t j = first + (uint32_t)__builtin_ctzll(bits);
-                Vector x = offset_to(data, place, j, variant);
-                WeirMask seen_here = (WeirMask)(dot(x, x, variant) < support2);
-                Vector v = less(vi, (const float *const *)data->new_velocity, j, variant);
-                add_scaled(&x, weir_lanes_fill(data->second_half), v, variant);
-                WeirLanes s = weir_lanes_sqrt(dot(x, x, variant)) * inverse_support;
-                WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
-                slope = weir_lanes_select(seen_here, slope, weir_lanes_fill(0.0f));
-                divergence += slope * dot(v, x, variant);
-                // rho_j - rho_i less what the height between them makes
-                WeirLanes excess = data->excess[j] - own + x.x * hydrostatic[0] + x.y * hydrostatic[1];
-                if (variant.three_dimensional) excess += x.z * hydrostatic[2];
-                diffusion += slope * excess * data->is_fluid[j];
-            }
-        }
-    }
-    float volume = constants->particle_mass * constants->gradient_factor;
-    float compress = volume * constants->quantum;
-    float diffuse = -volume * 2.0f * parameters->density_diffusion * constants->smoothing_length * c0;
-    WeirLanes rate =
-        rho * (compress * divergence + weir_lanes_load(data->shift_rate + begin)) + diffuse * diffusion;
-    weir_lanes_store_where(data->rate + begin, rate, chosen(data->is_fluid, begin, group->lanes));
 }
 
 // ---- The passes: one copy of each per dimension and kind of kernel ----
 
-typedef enum Pass { WALLS, FORCES, CONTINUITY } Pass;
+typedef enum Pass { WALLS, FORCES } Pass;
 
 // Does any of the lanes take part? Solid ones want their forces where somebody asks.
 INLINE bool takes_part(Pass pass, const WeirWcsphData *data, uint32_t begin, uint32_t count)
 {
     if (pass == WALLS) return any_solid(data->is_fluid, begin, count);
-    return any_set(data->is_fluid, begin, count) ||
-           (pass == FORCES && any_set(data->needs_force, begin, count));
+    return any_set(data->is_fluid, begin, count) || any_set(data->needs_force, begin, count);
 }
 
 INLINE void pass_group(Pass pass, const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
@@ -557,7 +529,6 @@ INLINE void pass_group(Pass pass, const WeirWcsphData *data, const WeirLaneGroup
 {
     if (pass == WALLS) walls_group(data, group, begin, variant);
     if (pass == FORCES) forces_group(data, group, begin, variant);
-    if (pass == CONTINUITY) continuity_group(data, group, begin, variant);
 }
 
 INLINE void run_pass(Pass pass, const WeirWcsphData *data, uint32_t begin, uint32_t end)
@@ -591,9 +562,4 @@ static void forces(const WeirWcsphData *data, uint32_t begin, uint32_t end)
     run_pass(FORCES, data, begin, end);
 }
 
-static void continuity(const WeirWcsphData *data, uint32_t begin, uint32_t end)
-{
-    run_pass(CONTINUITY, data, begin, end);
-}
-
-const WeirWcsphPasses WEIR_WCSPH_PASSES = {WEIR_SIMD_NAME, walls, forces, continuity};
+const WeirWcsphPasses WEIR_WCSPH_PASSES = {WEIR_SIMD_NAME, walls, forces};

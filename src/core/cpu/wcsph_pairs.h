@@ -6,12 +6,12 @@
 
 // What the pair passes read and write, in the order of the sorted particles; every array has WEIR_PAIRS_PADDING
 // elements more than particles. Vectors have three arrays; the third is 0 in 2D.
-enum { WEIR_SEEN_WORDS = 3 }; // per particle
 typedef struct WeirWcsphData {
     const WeirParameters *parameters;
     const WeirConstants *constants;
     const uint32_t *cell_start;
     float flow_speed;    // m/s, the fluid's largest, at most c0 / 10 and what shifting stands
+    float dt;            // s, of this step; 0 where only the forces are wanted
     float second_half;   // quanta per m/s: how far a velocity moves a particle in the second half of the step
     const int32_t *x[3]; // coordinates, quanta
     const float *velocity[3]; // m/s, at the start of the step
@@ -22,13 +22,12 @@ typedef struct WeirWcsphData {
     float *inverse_density;   // m^3/kg
     float *pressure;          // Pa
     float *seen_velocity[3];  // as `forces` sees it: of no-slip solids mirrored
-    float *new_velocity[3];   // as `continuity` sees it
-    float *acceleration[3];   // m/s^2; of solids: force of the fluid on the particle over the particle mass
-    float *shift[3];          // shifting velocity, m/s
-    float *shift_rate;        // what shifting does to the density: drho/dt / rho, 1/s
-    float *rate;              // drho/dt, kg/(m^3 s)
-    uint64_t *seen; // WEIR_SEEN_WORDS per particle: which candidates its group saw, of forces for continuity
-    float *weight;  // walls: sum of W, 0 without fluid in reach
+    float *new_velocity
+        [3]; // m/s; of solids: their own, without what their surface slides, for `forces`; of fluid: after the kick
+    float *acceleration[3]; // m/s^2; of solids: force of the fluid on the particle over the particle mass
+    float *shift[3];        // shifting velocity, m/s
+    float *rate;            // drho/dt, kg/(m^3 s)
+    float *weight;          // walls: sum of W, 0 without fluid in reach
     float *extrapolated[3]; // walls: sum_j rho_j x_wj W / sum W, kg/m^2
 } WeirWcsphData;
 
@@ -37,7 +36,6 @@ typedef struct WeirWcsphPasses {
     // Each handles particles [begin, end) and writes nothing else.
     void (*walls)(const WeirWcsphData *data, uint32_t begin, uint32_t end);
     void (*forces)(const WeirWcsphData *data, uint32_t begin, uint32_t end);
-    void (*continuity)(const WeirWcsphData *data, uint32_t begin, uint32_t end);
 } WeirWcsphPasses;
 
 // The widest that this processor runs.

@@ -32,11 +32,11 @@ static bool make_particles(WeirWcsphParticles *particles, size_t size)
 // One block for the arrays of `data` that do not belong to the sorted particles.
 static bool make_sums(WeirWcsph *solver, size_t size)
 {
-    enum { ARRAYS = 22 };
+    enum { ARRAYS = 21 };
     float *next = solver->sums = calloc(ARRAYS * size, sizeof *next);
     if (!next) return false;
     WeirWcsphData *data = &solver->data;
-    float **single[] = {&data->inverse_density, &data->pressure, &data->weight, &data->shift_rate};
+    float **single[] = {&data->inverse_density, &data->pressure, &data->weight};
     float **vector[] = {data->seen_velocity, data->new_velocity, data->acceleration, data->shift,
                         data->extrapolated};
     for (size_t n = 0; n < sizeof single / sizeof *single; ++n, next += size) *single[n] = next;
@@ -46,8 +46,7 @@ static bool make_sums(WeirWcsph *solver, size_t size)
     data->is_fluid = next, next += size;
     data->stick = next, next += size;
     data->needs_force = next;
-    data->seen = solver->seen = calloc(WEIR_SEEN_WORDS * size, sizeof *solver->seen);
-    return data->seen != NULL;
+    return true;
 }
 
 // A copy from malloc of `count` elements; NULL for none, with *good cleared if memory runs out.
@@ -119,7 +118,6 @@ void weir_wcsph_free(WeirWcsph *solver)
     free(solver->snapshot.particles.x[0]);
     free(solver->snapshot.solids);
     free(solver->sums);
-    free(solver->seen);
     weir_world_free(&solver->world);
     free(solver->solids);
     free(solver->emitters);

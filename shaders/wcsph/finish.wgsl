@@ -1,10 +1,10 @@
-// drho/dt with the new velocities and with density diffusion between fluid particles, then the step's second half:
-// rho += dt/2 drho, x += dt/2 v + dt u; health; and the first half of the next step's move, if there is one.
+// The step's second half: rho += dt/2 drho, x += dt/2 v + dt u; health; and the first half of the next step's move, if there
+// is one.
 //
-// in:  coordinate, id, cell_start, neighbor_list, kicked (its second half: shifting velocities, ways of moving solids)
+// in:  coordinate, id, kicked (its second half: shifting velocities and drho/dt, ways of moving solids)
 // out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; maxima and
-//      counts in control; where no step follows, kicked keeps the rates in w of its second half
-@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
+//      counts in control
+@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
 @group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
@@ -37,68 +37,6 @@ fn take_drift(way: u32) {
     }
 }
 
-struct Own {
-    motion: vec4f,
-    hydrostatic: Vector, // density by height, per quantum
-    second_half: f32,    // quanta per m/s
-}
-
-struct Sums {
-    divergence: f32,
-    diffusion: f32,
-}
-
-fn added(a: Sums, b: Sums) -> Sums {
-    return Sums(a.divergence + b.divergence, a.diffusion + b.diffusion);
-}
-
-fn own_of(own_motion: vec4f) -> Own {
-    let c = constants.sound_speed;
-    let hydrostatic = vector_of(parameters.gravity) * (parameters.rest_density / (c * c) * constants.quantum);
-    return Own(own_motion, hydrostatic, 0.5 * control.last_dt * constants.inverse_quantum);
-}
-
-fn searched_start() -> u32 {
-    return side_start(control.last_side);
-}
-
-fn way_since_sort() -> u32 {
-    return control.travelled - control.sorted_at;
-}
-
-fn state_of(start: u32, j: u32) -> vec4f {
-    return kicked[j];
-}
-
-fn add_itself(sums: ptr<function, Sums>, own: Own) {
-}
-
-// Where particles are at the end of the step, so that the rate is that of the middle between two densities; over those
-// within the support in the middle of the step.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
-    let support = f32(1u << constants.coordinate_bits);
-    let acts = !(CAN_EMPTY && u32(other.w) == GROUP_EMPTY) && dot(offset, offset) < support * support;
-    let relative = vector_of(own.motion) - vector_of(neighbor);
-    let end = offset + own.second_half * relative;
-    let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
-    let slope = kernel_slope(sqrt(dot(end, end)) * constants.inverse_support) * inverse_density;
-    (*sums).divergence += slope * dot(relative, end);
-    if DIFFUSION {
-        // rho_j - rho_i less what the height between them makes
-        let excess = neighbor.w - own.motion.w + dot(end, own.hydrostatic);
-        (*sums).diffusion += select(0.0, slope * excess, !HAS_SOLIDS || !is_solid(u32(other.w)));
-    }
-}
-
-// `shift_rate`: what shifting adds, drho/dt / rho.
-fn density_rate(sums: Sums, own_motion: vec4f, shift_rate: f32) -> f32 {
-    let volume = constants.particle_mass * constants.gradient_factor;
-    let compress = volume * constants.quantum;
-    let diffuse = -volume * 2.0 * parameters.density_diffusion * constants.smoothing_length * constants.sound_speed;
-    return (parameters.rest_density + own_motion.w) * (compress * sums.divergence + shift_rate)
-        + diffuse * sums.diffusion;
-}
-
 fn check_health(i: u32, speed_squared: f32, rate: f32) {
     let limit = constants.speed_limit;
     if is_finite(speed_squared) && is_finite(rate) && speed_squared <= limit * limit {
@@ -128,10 +66,10 @@ fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
     }
 }
 
-fn finish_fluid(i: u32, own: vec4i, local: u32) {
+fn finish_fluid(i: u32, own: vec4i) {
     var own_motion = kicked[i];
     let shift = kicked[constants.particle_count + i];
-    let rate = density_rate(all_sums(i, place_of(own), own_of(own_motion), local), own_motion, shift.w);
+    let rate = shift.w;
     var velocity = vector_of(own_motion);
     let last_half = 0.5 * control.last_dt;
     check_health(i, dot(velocity, velocity), rate);
@@ -150,7 +88,6 @@ fn finish_fluid(i: u32, own: vec4i, local: u32) {
     let finished = vec4i(wide_place(place), own.w);
     let half = control.drift_half;
     if half == 0.0 {
-        kicked[constants.particle_count + i].w = rate;
         leave(i, finished, own_motion);
         return;
     }
@@ -173,21 +110,11 @@ fn leave(i: u32, at: vec4i, own_motion: vec4f) {
     motion[target_slot] = own_motion;
 }
 
-// What a lane leaves for all_sums().
-fn share_of(i: u32, lane: u32) -> Sums {
-    let own = coordinate[side_start(control.last_side) + i];
-    if !is_fluid(u32(own.w)) {
-        return Sums();
-    }
-    return sum_pairs(i, place_of(own), own_of(kicked[i]), lane);
-}
-
-// By the particle's first thread, the workgroup's thread `local`.
-fn finish(i: u32, local: u32) {
+fn finish_particle(i: u32) {
     let own = coordinate[side_start(control.last_side) + i];
     let group = u32(own.w);
     if is_fluid(group) {
-        finish_fluid(i, own, local);
+        finish_fluid(i, own);
         return;
     }
     var place = own;
@@ -203,25 +130,17 @@ fn finish(i: u32, local: u32) {
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn continuity(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
-              @builtin(local_invocation_index) local: u32) {
+fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
+          @builtin(local_invocation_index) local: u32) {
     if local == 0u {
         atomicStore(&error_most, 0u);
         atomicStore(&finish_most, 0u);
         atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
-    let thread = thread_index(workgroup, workgroups, local);
-    let i = thread / LANES;
-    let works = i < constants.particle_count && control.finishing == 1u;
-    if LANES > 1u {
-        if works {
-            shares[local] = share_of(i, thread % LANES);
-        }
-        workgroupBarrier();
-    }
-    if works && thread % LANES == 0u {
-        finish(i, local);
+    let i = thread_index(workgroup, workgroups, local);
+    if i < constants.particle_count && control.finishing == 1u {
+        finish_particle(i);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&finish_most) > 0u {
