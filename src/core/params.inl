@@ -28,14 +28,15 @@ WEIR_NUMBER(expected_speed, "m/s", 0.0, 0.0, 1e4, "wcsph", 0,
 WEIR_NUMBER(artificial_viscosity, "1", 0.01, 0.0, 10.0, "wcsph", 1,
             "Strength alpha of Monaghan's artificial viscosity between fluid particles.")
 WEIR_NUMBER(density_diffusion, "1", 0.15, 0.0, 1.0, "wcsph", 1,
-            "Strength delta of the density diffusion of Fourtakas et al. 2019.")
+            "Strength delta of the density diffusion (Fourtakas et al. 2019).")
 WEIR_NUMBER(shifting, "1", 2.0, 0.0, 20.0, "wcsph", 1,
             "Strength of the particle shifting inside the fluid, 1 as in Sun et al. 2017; 0: none.")
 WEIR_NUMBER(background_pressure, "Pa", 0.0, 0.0, 1e9, "wcsph", 1,
             "Added to every pressure; keeps a closed or periodic fluid without free surface from tension.")
 WEIR_NUMBER(central_force, "1/s^2", 0.0, 0.0, 1e6, "wcsph", 1,
             "Omega^2 of an acceleration -Omega^2 x towards the middle of the domain.")
-WEIR_NUMBER(courant, "1", 0.6, 0.01, 2.0, "wcsph", 1, "Courant number of the adaptive time step.")
+WEIR_NUMBER(courant, "1", 0.6, 0.01, 0.68, "wcsph", 1,
+            "Courant number of the adaptive time step; above 0.69 sound grows without bound.")
 WEIR_NUMBER(time_step, "s", 0.0003, 1e-7, 0.1, "", 1,
             "Simulated time of one step; wcsph reads it only if stepping is fixed.")
 WEIR_NUMBER(time_scale, "1", 1.0, 0.01, 10.0, "", 1, "Simulated seconds per wall second that a live run aims at.")
