@@ -19,6 +19,7 @@ SHADER(common_bodies)
 SHADER(common_emitters)
 SHADER(common_lists)
 SHADER(common_neighbors)
+SHADER(common_contact)
 SHADER(common_sorting)
 SHADER(solve_scan_reduce)
 SHADER(solve_scan_write)
@@ -67,6 +68,8 @@ static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
 static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists, NULL};
 static const char *const pairs_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors, NULL};
+static const char *const forces_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors,
+                                          weir_wgsl_common_contact, NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
 #define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name
@@ -99,7 +102,7 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                           BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                               BIT(control),
                           BIT(motion), WEIR_ITEMS_SOLID_SHARES},
-    [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", pairs_part, FORCES_READS,
+    [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", forces_part, FORCES_READS,
                            FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                  WEIR_ITEMS_FREE_BLOCKS},
@@ -115,7 +118,7 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", pairs_part, FORCES_READS,
+    [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", forces_part, FORCES_READS,
                                 FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
                                       WEIR_ITEMS_BLOCKS},

@@ -1,0 +1,100 @@
+// What acts at close range alone: the barrier between fluid and solids, contact of solids. Few particles need either, so they
+// search for themselves. And how solids move, where the fluid wants to know.
+@group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
+
+// A last barrier keeps fast fluid out of walls: docs/wcsph.md.
+const BARRIER_RANGE = 0.85; // spacings
+const BARRIER_STRENGTH = 4.0;
+const BRAKE_RANGE = 2.0;    // spacings
+const BRAKE_STRENGTH = 2.4; // over the Courant number
+const BRAKE_LIMIT = 0.1;    // c0
+
+fn quanta_of_spacings(count: f32) -> f32 {
+    return count * parameters.particle_spacing * constants.inverse_quantum;
+}
+
+// Velocity of a solid at one of its particles, from where that is.
+fn motion_of_solid(group: u32, place: Place) -> vec3f {
+    let n = group - GROUP_SOLID;
+    if !MOVING_SOLIDS || solid_table[n].kind == SOLID_FIXED {
+        return vec3f(0.0);
+    }
+    let center = coordinate_of(solid_state[NOW + n].position.xyz - constants.origin.xyz);
+    let arm = wide(Vector(shortest(place - center)) * constants.quantum);
+    return solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
+}
+
+// With what its surface slides.
+fn solid_velocity(group: u32, place: Place) -> vec3f {
+    return solid_table[group - GROUP_SOLID].surface_velocity.xyz + motion_of_solid(group, place);
+}
+
+// A surface that slides along itself displaces no fluid.
+fn displacing_velocity(group: u32, place: Place) -> Vector {
+    return vector_of(vec4f(motion_of_solid(group, place), 0.0));
+}
+
+// Of fluid and a solid's particle, one of each, with the solid's own velocity: motion of solids is as the fluid sees it.
+fn approach_velocity(own: vec4i, own_motion: vec4f, other: vec4i, other_motion: vec4f) -> Vector {
+    if is_solid(u32(own.w)) {
+        return vector_of(vec4f(solid_velocity(u32(own.w), place_of(own)), 0.0)) - vector_of(other_motion);
+    }
+    return vector_of(own_motion) - vector_of(vec4f(solid_velocity(u32(other.w), place_of(other)), 0.0));
+}
+
+// The barrier's acceleration.
+fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
+    let barrier_range = quanta_of_spacings(BARRIER_RANGE);
+    let brake_range = quanta_of_spacings(BRAKE_RANGE);
+    let solid = is_solid(u32(own.w));
+    let start = side_start(control.side);
+    var sum = Vector();
+    var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));
+    while next_run(&walk) {
+        let end = cell_start[walk.end_cell];
+        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+            let other = coordinate[start + j];
+            let offset = Vector(walk.place - place_of(other));
+            let r = max(length(offset), barrier_range / 3.0);
+            let near = 1.0 - r / brake_range;
+            let mixed = u32(other.w) != GROUP_EMPTY && is_solid(u32(other.w)) != solid;
+            if mixed && near > 0.0 {
+                let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
+                let approach = -dot(approach_velocity(own, own_motion, other, motion[start + j]), offset)
+                    / (r * constants.sound_speed);
+                let brake = BRAKE_STRENGTH / parameters.courant * near * max(approach - BRAKE_LIMIT, 0.0);
+                sum += ((push + brake) / r) * offset;
+            }
+        }
+    }
+    return (constants.sound_speed * constants.sound_speed / parameters.particle_spacing) * sum;
+}
+
+// Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
+// damped, never attracting.
+fn contact_force(own: vec4i) -> Vector {
+    let spacing = parameters.particle_spacing;
+    let mass = constants.particle_mass;
+    let c = constants.sound_speed;
+    let group = u32(own.w);
+    let velocity = solid_velocity(group, place_of(own));
+    var force = Vector();
+    let start = side_start(control.side);
+    var walk = walk_around(place_of(own), i32(1u << constants.coordinate_bits) + i32(way_since_sort()));
+    while next_run(&walk) {
+        let end = cell_start[walk.end_cell];
+        for (var j = cell_start[walk.first_cell]; j < end; j++) {
+            let other = coordinate[start + j];
+            let offset = Vector(walk.place - place_of(other)) * constants.quantum;
+            let r_squared = dot(offset, offset);
+            if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {
+                let r = sqrt(r_squared);
+                let relative = velocity - solid_velocity(u32(other.w), place_of(other));
+                let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
+                    - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;
+                force += (max(push, 0.0) / r) * offset;
+            }
+        }
+    }
+    return force;
+}
