@@ -398,7 +398,8 @@ static void noise_fades(const WeirBackend *backend)
     static const char *const kernels[] = {"wendland", "cubic", "quintic"};
     for (int n = 0; n < 6; ++n) {
         uint32_t dimension = n < 3 ? 2 : 3, random = 1;
-        WeirSim *sim = weir_test_sim(sound_box(dimension, kernels[n % 3]), backend, 0);
+        WeirScene *scene = sound_box(dimension, kernels[n % 3]);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
         float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
               *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
         for (uint32_t k = 0; k < dimension * weir_sim_particle_count(sim); ++k) {
@@ -415,6 +416,7 @@ static void noise_fades(const WeirBackend *backend)
         free(position);
         free(velocity);
         weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
     }
 }
 
