@@ -1,8 +1,7 @@
-// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, added(), add_pair(),
-// state_of(), what add_pair wants to know of a neighbour but its coordinate, and add_itself(), what the particle adds to
-// its own sums: a list may hold it several times, and each time `itself` keeps it from adding anything. Furthermore
-// searched_start(), the first slot of the working copy that holds the candidates, and way_since_sort(), the largest way
-// of a particle from where it was sorted to there.
+// Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, added(), add_pair(), and
+// add_itself(), what the particle adds to its own sums: a list may hold it several times, and each time `itself` keeps it
+// from adding anything. Furthermore share_of(), the sums of one lane by sum_pairs(), and way_since_sort(), the largest way
+// of a particle from where it was sorted.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then, eight to a chunk; so it misses nobody while no particle has moved farther than
@@ -18,6 +17,16 @@
 // By the workgroup's threads.
 var<workgroup> shares: array<Sums, select(1u, WORKGROUP_SIZE, LANES > 1u)>;
 
+// What the lanes of item i leave for all_sums(). To be called by all threads of a workgroup.
+fn leave_shares(works: bool, i: u32, lane: u32, local: u32) {
+    if LANES > 1u {
+        if works {
+            shares[local] = share_of(i, lane);
+        }
+        workgroupBarrier();
+    }
+}
+
 // Of the particle in slot i, for its first thread, which is the workgroup's thread `local`.
 fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
     if LANES == 1u {
@@ -32,7 +41,7 @@ fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
 
 // A lane's share: every LANES-th chunk of the list, or candidate of a run of cells.
 fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
-    let start = searched_start();
+    let start = side_start(control.side);
     let moved = way_since_sort();
     var sums: Sums;
     if LISTS && moved <= control.allowance {
@@ -62,7 +71,7 @@ fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
             let other = coordinate[start + j];
             let offset = Vector(walk.place - place_of(other));
             if BRANCH_FREE || dot(offset, offset) < support * support {
-                add_pair(&sums, own, other, state_of(start, j), offset, false);
+                add_pair(&sums, own, other, motion[start + j], offset, false);
             }
         }
     }
@@ -75,14 +84,14 @@ fn add_four(sums: ptr<function, Sums>, i: u32, place: Place, own: Own, start: u3
     let b = coordinate[start + slots.y];
     let c = coordinate[start + slots.z];
     let d = coordinate[start + slots.w];
-    let state_a = state_of(start, slots.x);
-    let state_b = state_of(start, slots.y);
-    let state_c = state_of(start, slots.z);
-    let state_d = state_of(start, slots.w);
-    add_pair(sums, own, a, state_a, offset_to(place, a), slots.x == i);
-    add_pair(sums, own, b, state_b, offset_to(place, b), slots.y == i);
-    add_pair(sums, own, c, state_c, offset_to(place, c), slots.z == i);
-    add_pair(sums, own, d, state_d, offset_to(place, d), slots.w == i);
+    let motion_a = motion[start + slots.x];
+    let motion_b = motion[start + slots.y];
+    let motion_c = motion[start + slots.z];
+    let motion_d = motion[start + slots.w];
+    add_pair(sums, own, a, motion_a, offset_to(place, a), slots.x == i);
+    add_pair(sums, own, b, motion_b, offset_to(place, b), slots.y == i);
+    add_pair(sums, own, c, motion_c, offset_to(place, c), slots.z == i);
+    add_pair(sums, own, d, motion_d, offset_to(place, d), slots.w == i);
 }
 
 fn offset_to(place: Place, other: vec4i) -> Vector {

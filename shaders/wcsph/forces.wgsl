@@ -69,17 +69,9 @@ fn added(a: Sums, b: Sums) -> Sums {
                 max(a.solid_gap, b.solid_gap));
 }
 
-fn searched_start() -> u32 {
-    return side_start(control.side);
-}
-
 fn way_since_sort() -> u32 {
     return control.travelled + atomicLoad(&control.moved_finish) + atomicLoad(&control.moved_drift)
         - control.sorted_at;
-}
-
-fn state_of(start: u32, j: u32) -> vec4f {
-    return motion[start + j];
 }
 
 fn add_itself(sums: ptr<function, Sums>, own: Own) {
@@ -151,14 +143,10 @@ fn meets_barrier(sums: Sums, own_motion: vec4f) -> bool {
     return HAS_SOLIDS && (close || (sums.solid_gap > 0.0 && (MOVING_SOLIDS || fast)));
 }
 
-// m/s^2 per unit of the sum of pressures.
-fn pressure_scale(excess: f32) -> f32 {
-    return -constants.quantum * constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
-}
-
 // By pressure. `own_pressure` as it enters the sum.
 fn pressure_acceleration(sums: Sums, excess: f32, own_pressure: f32) -> Vector {
-    return pressure_scale(excess) * (sums.pressure + own_pressure * sums.gradient);
+    let scale = constants.particle_mass * constants.gradient_factor / (parameters.rest_density + excess);
+    return -constants.quantum * scale * (sums.pressure + own_pressure * sums.gradient);
 }
 
 // By viscosity. `inside`: of fluid whose support is full.
@@ -213,10 +201,22 @@ fn shift_of(sums: Sums) -> vec4f {
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
 }
 
+// What shifting (`rate`) and the volume that particles fill do to the density, and the return of spray to its rest density.
+fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
+    let c = constants.sound_speed;
+    let h = constants.smoothing_length;
+    if surface < SPRAY_LIMIT * f32(DIMENSION) && excess < 0.0 {
+        return -excess / (parameters.rest_density + excess) * c / h;
+    }
+    let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
+    let is_full = surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling;
+    return rate + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
+}
+
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to
 // the divergence is the Laplacian of the pressure. The same operator diffuses the density. docs/wcsph.md, "Continuity".
 // `shift_rate`: what shifting and the like add, drho/dt / rho.
-fn density_rate(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
+fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
     let dt = control.dt;
     let rho = parameters.rest_density + excess;
     let compress = constants.particle_mass * constants.gradient_factor * constants.quantum;
@@ -290,7 +290,8 @@ fn publish_maxima() {
 fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
     let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
-    let inside = full * sums.surface >= 0.95 * f32(DIMENSION);
+    let surface = full * sums.surface;
+    let inside = surface >= 0.95 * f32(DIMENSION);
     let pressure = pressure_of(own_motion.w);
     let acts = select(pressure, -pressure, TENSION_CONTROL && inside && pressure < 0.0);
     let velocity = vector_of(own_motion);
@@ -316,16 +317,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
-    let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
-    if full * sums.surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling {
-        shift.w += (filling - constants.lattice_filling) * constants.sound_speed
-            / (VOLUME_TIME * constants.smoothing_length);
-    }
-    let lack = -own_motion.w;
-    if full * sums.surface < SPRAY_LIMIT * f32(DIMENSION) && lack > 0.0 {
-        shift.w = lack / (parameters.rest_density + own_motion.w) * constants.sound_speed / constants.smoothing_length;
-    }
-    shift.w = density_rate(sums, own_motion.w, push, shift.w);
+    shift.w = rate_of(sums, own_motion.w, push, shift_rate_of(sums, own_motion.w, surface, shift.w));
     kicked[constants.particle_count + i] = shift;
     take_speed(dot(new_velocity, new_velocity));
     if free {
@@ -344,12 +336,7 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     let i = thread / LANES;
     let runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
     let works = i < constants.particle_count && runs;
-    if LANES > 1u {
-        if works {
-            shares[local] = share_of(i, thread % LANES);
-        }
-        workgroupBarrier();
-    }
+    leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
         forces_on(i, local);
     }
@@ -359,7 +346,6 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     }
 }
 
-// What a lane leaves for all_sums().
 fn share_of(i: u32, lane: u32) -> Sums {
     let own = coordinate[side_start(control.side) + i];
     let group = u32(own.w);

@@ -25,16 +25,8 @@ fn added(a: Sums, b: Sums) -> Sums {
     return Sums(a.weight + b.weight, a.pressure + b.pressure, a.mean + b.mean, a.moment + b.moment);
 }
 
-fn searched_start() -> u32 {
-    return side_start(control.side);
-}
-
 fn way_since_sort() -> u32 {
     return control.travelled + control.moved_finish + control.moved_drift - control.sorted_at;
-}
-
-fn state_of(start: u32, j: u32) -> vec4f {
-    return motion[start + j];
 }
 
 fn add_itself(sums: ptr<function, Sums>, own: Own) {
@@ -69,7 +61,6 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
                           + cross(state.angular_velocity.xyz, spin));
 }
 
-// What a lane leaves for all_sums().
 fn share_of(particle: u32, lane: u32) -> Sums {
     let i = solid_slot[particle];
     return sum_pairs(i, place_of(coordinate[side_start(control.side) + i]), Own(0u), lane);
@@ -102,12 +93,7 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     let particle = thread / LANES;
     let runs = control.running == 1u && is_well(control.bad_step, control.restored);
     let works = particle < constants.particle_count - constants.first_solid && runs;
-    if LANES > 1u {
-        if works {
-            shares[local] = share_of(particle, thread % LANES);
-        }
-        workgroupBarrier();
-    }
+    leave_shares(works, particle, thread % LANES, local);
     if works && thread % LANES == 0u {
         see_fluid(particle, local);
     }
