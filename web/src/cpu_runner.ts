@@ -8,6 +8,7 @@ import { ColorBy, Field, Look, type Clock, type Diagnostics, type Scene, type Si
 
 export type CpuFrame = {
   steps: number; // taken
+  behind: boolean; // more were due
   stepCount: number;
   time: number;
   stepMs: number;
@@ -28,19 +29,22 @@ export function looksOf(scene: Scene, document: SceneDocument): number[] {
   });
 }
 
-// Fills `values` as PointsFrame says, if they have the right length.
-export function fillPoints(sim: Sim, colorBy: ColorBy, looksOfSolids: number[], values: Float32Array): void {
+// Fills `values` as PointsFrame says, if they have the right length, from what `read` gives.
+export function fillPoints(
+  sim: Sim, colorBy: ColorBy, looksOfSolids: number[], values: Float32Array,
+  read = (field: Field): Float32Array | null => sim.read(field),
+): void {
   const { particleCount: count, dimension } = sim;
   if (values.length !== floatsPerParticle(dimension) * count) return;
-  const position = sim.read(Field.position);
+  const position = read(Field.position);
   if (position) values.set(position, 0);
-  const velocity = sim.read(Field.velocity);
+  const velocity = read(Field.velocity);
   if (velocity) values.set(velocity, dimension * count);
   const field = colorBy === ColorBy.pressure ? Field.pressure : Field.density;
-  const scalar = colorBy === ColorBy.speed ? null : sim.read(field); // which costs an evaluation with wcsph
+  const scalar = colorBy === ColorBy.speed ? null : read(field); // which costs an evaluation with wcsph
   if (scalar) values.set(scalar, 2 * dimension * count);
   const looks = values.subarray((2 * dimension + 1) * count);
-  const group = sim.read(Field.group);
+  const group = read(Field.group);
   for (let i = 0; group && i < count; i++) {
     const number = group[i] as number;
     looks[i] = number <= 0 ? number : (looksOfSolids[number - 1] ?? 1);
@@ -54,7 +58,7 @@ export class CpuRunner {
   #timeOffset = 0; // a run that goes on from a snapshot keeps its clock
   #stepOffset = 0;
   #diagnosed = 0;
-  readonly #frame: CpuFrame = { steps: 0, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null, samples: [], warning: '' };
+  readonly #frame: CpuFrame = { steps: 0, behind: false, stepCount: 0, time: 0, stepMs: 0, diagnostics: null, clock: null, samples: [], warning: '' };
   #probes: ProbeReader | null = null;
   #looks: number[] = [];
   #wcsph = false;
@@ -120,6 +124,7 @@ export class CpuRunner {
     const begin = performance.now();
     frame.steps = sim.advance(wallSeconds);
     const end = performance.now();
+    frame.behind = frame.steps > 0 && frame.steps >= this.#pace.maxSteps;
     this.#pace.measured(frame.steps, end - begin, budgetMs);
     fillPoints(sim, colorBy, this.#looks, values);
     frame.samples = this.#probes?.update() ?? [];

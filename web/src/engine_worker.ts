@@ -12,8 +12,6 @@ import { Status, WeirError, type View, type Weir } from './weir.ts';
 // far slower (all pairs of 50,000 particles take many seconds).
 const patienceMs = 3000;
 const longPatienceMs = 60_000;
-// Below this much work per frame the next one waits for the display; above it the worker must not idle.
-const busyEnoughMs = 8;
 
 type Waiting = { resolve: () => void; reject: (error: Error) => void; scene: SceneDocument };
 
@@ -123,7 +121,7 @@ export class WorkerEngine implements Engine {
     this.#picture.addSamples(message.samples);
     if (message.diagnostics) stats.diagnostics = message.diagnostics;
     this.#picture.setValues(new Float32Array(message.buffer));
-    if (message.busyMs > busyEnoughMs && this.#wallSince > 0) this.#ask();
+    if (message.behind && this.#wallSince > 0) this.#ask(); // the worker must not idle until the display's next frame
   }
 
   #ask(): void {

@@ -29,6 +29,7 @@ export type FromWorker =
       type: 'frame';
       run: number;
       steps: number;
+      behind: boolean;
       stepCount: number;
       time: number;
       stepMs: number;
