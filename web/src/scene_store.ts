@@ -44,9 +44,29 @@ export class SceneStore {
   }
 
   // The document with about `count` particles: lengths of the discretisation and the time step scale together, so
-  // neighbours per particle and stability stay what they are.
+  // neighbours per particle and stability stay what they are. Particles fill the fluid's volume exactly as before: the
+  // lattice is stretched to whole numbers along each side, which would squeeze them by some percent.
   withParticles(count: number): SceneDocument {
     if (!Number.isFinite(count) || count < 1) throw new Error(`particles: ${count}; must be 1 or more`);
+    return this.#filling(this.#about(count));
+  }
+
+  // With the spacing that the volume of the present document's fluid gives for the number of particles in `next`.
+  #filling(next: SceneDocument): SceneDocument {
+    const { dimension } = this.scene;
+    const spacing = this.scene.parameter('particle_spacing')[0] ?? 0;
+    let document = next;
+    for (let round = 0; round < 4; round++) {
+      const scene = this.#weir.loadScene(document);
+      const factor = (spacing * (this.derived.particles / scene.fluidCount) ** (1 / dimension)) / (scene.parameter('particle_spacing')[0] ?? 0);
+      scene.destroy();
+      if (!Number.isFinite(factor) || Math.abs(factor - 1) < 1e-5) break;
+      document = this.#scaled(document, factor);
+    }
+    return document;
+  }
+
+  #about(count: number): SceneDocument {
     let document = this.document;
     let particles = this.derived.particles;
     // The lattice does not fill a piece of fluid exactly: the second round mends most of it.

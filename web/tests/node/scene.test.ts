@@ -5,6 +5,8 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSy
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import type { SceneDocument } from '../../src/scene_document.ts';
+import { SceneStore } from '../../src/scene_store.ts';
 import { Status, Weir, WeirError } from '../../src/weir.ts';
 import { root, wasmFile } from './support.ts';
 
@@ -315,4 +317,16 @@ test('a scene describes itself', () => {
   scene.check();
   assert.match(scene.warning, /time_step/);
   scene.destroy();
+});
+
+test('another number of particles fills the same volume', () => {
+  for (const [name, count] of [['kleefsman', 5000], ['dam_3d', 5000], ['dam_2d', 8000], ['floating_3d', 5000], ['lid_cavity', 8000]] as const) {
+    const document = JSON.parse(readFileSync(join(root, `scenes/${name}.json`), 'utf8')) as SceneDocument;
+    const store = new SceneStore(weir, document);
+    const volume = (): number => store.derived.particles * (store.scene.parameter('particle_spacing')[0] ?? 0) ** store.scene.dimension;
+    const before = volume();
+    store.replace(store.withParticles(count));
+    assert.ok(Math.abs(store.derived.particles / count - 1) < 0.1, `${name}: ${store.derived.particles} particles instead of ${count}`);
+    assert.ok(Math.abs(volume() / before - 1) < 1e-4, `${name}: volume ${volume()} instead of ${before}`);
+  }
 });
