@@ -28,6 +28,7 @@ const secondLossMs = 10_000; // a device lost again so soon is not asked for a t
 const cpuParticles = { 2: 8000, 3: 5000 } as const;
 const panelWidth = 304; // CSS pixels
 const headingWidth = 330;
+const small = matchMedia('(max-width: 760px), (max-height: 520px)'); // as in style.css
 
 const element = (id: string): HTMLElement => document.getElementById(id) as HTMLElement;
 
@@ -65,6 +66,7 @@ export class App implements PanelHost {
   #interval = 1000 / 60; // ms between animation frames, averaged
   #plotted: unknown = null;
   #advice = ''; // as last seen
+  #footer = { size: '', height: 0 }; // of the window, of the footer
 
   constructor(weir: Weir, module: WebAssembly.Module, scenes: SceneEntry[], options: AppOptions) {
     this.weir = weir;
@@ -89,11 +91,12 @@ export class App implements PanelHost {
       this.camera.pixelRatio = ratio;
       this.#fit();
     });
-    if (innerWidth < 760) this.#showPlots(false);
+    new ResizeObserver(() => this.#fit()).observe(element('footer')); // its words take one line or more
+    if (small.matches) this.#showPlots(false);
     this.#showScene();
     await this.#chooseEngine();
     requestAnimationFrame(this.#frame);
-    this.#panel = new Panel(element('panel'), this, innerWidth >= 760);
+    this.#panel = new Panel(element('panel'), this, !small.matches);
     this.#fit();
     this.#listen();
   }
@@ -125,9 +128,10 @@ export class App implements PanelHost {
     this.notes.clear('engine');
     const { engine, reason } = await startEngine(this.#setup(), this.backend);
     this.engine = engine;
-    if (reason) this.#explain(reason);
+    this.status.reason = reason;
     try {
-      if (!from && !this.#asked) this.#suit();
+      const fewer = !from && !this.#asked ? this.#suit() : '';
+      if (reason) this.notes.toast('info', this.#explained(reason, fewer));
       await engine.start(this.store.document, from);
       this.#started();
     } catch (error) {
@@ -135,9 +139,9 @@ export class App implements PanelHost {
     }
   }
 
-  #explain(reason: string): void {
+  #explained(reason: string, fewer = ''): string {
     const where = this.engine?.kind === 'main' ? "on the page's own thread" : 'on the CPU';
-    this.notes.show('engine', 'info', `${reason.replace(/[.\s]*$/, '.')} The C solver runs the fluid ${where}.`);
+    return `${reason.replace(/[.\s]*$/, '.')} The C solver runs the fluid ${where}${fewer && `: ${fewer}`}.`;
   }
 
   async #fault(kind: FaultKind, message: string): Promise<void> {
@@ -184,7 +188,7 @@ export class App implements PanelHost {
         this.engine = engine;
         this.#started();
         if (engine.kind === 'gpu') this.notes.show('engine', 'info', `${message}. A new device goes on from there.`);
-        else this.#explain(message);
+        else this.notes.show('engine', 'info', this.#explained(message));
         return;
       } catch {
         engine?.destroy();
@@ -197,18 +201,18 @@ export class App implements PanelHost {
 
   // ---- Scenes ----
 
-  // A scene of wcsph made for a graphics card gets fewer particles where the C solver moves it.
-  #suit(): void {
+  // A scene of wcsph made for a graphics card gets fewer particles where the C solver moves it. In words; '' if not.
+  #suit(): string {
     const { scene, derived } = this.store;
     const most = cpuParticles[scene.dimension === 3 ? 3 : 2];
-    if (this.engine?.kind === 'gpu' || scene.method !== 'wcsph' || derived.particles <= 1.2 * most) return;
+    if (this.engine?.kind === 'gpu' || scene.method !== 'wcsph' || derived.particles <= 1.2 * most) return '';
     try {
       this.store.replace(this.store.withParticles(most));
     } catch {
-      return; // too coarse for what is in the scene
+      return ''; // too coarse for what is in the scene
     }
     const [fewer, usual] = [this.store.derived.particles, derived.particles].map(formatCount);
-    this.notes.toast('info', `${fewer} particles instead of ${usual}: without a graphics card one core moves them.`);
+    return `${fewer} particles instead of ${usual}`;
   }
 
   // Starts a document; the last good one goes on if it is refused.
@@ -407,16 +411,20 @@ export class App implements PanelHost {
 
   #fit(): void {
     const { camera } = this;
-    const narrow = innerWidth < 760;
+    const narrow = small.matches;
     const right = (this.#panelShown || this.plot.visible) && !narrow ? panelWidth + 20 : 20;
-    const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: element('footer').offsetHeight + 30 };
+    // It only grows while the window stays: numbers that change their width must not make the picture jump.
+    const size = `${innerWidth} ${innerHeight}`;
+    this.#footer = { size, height: Math.max(element('footer').offsetHeight, this.#footer.size === size ? this.#footer.height : 0) };
+    const footer = this.#footer.height;
+    document.body.style.setProperty('--footer', `${footer}px`);
+    const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: footer + 30 };
     camera.fit(insets);
-    if (camera.dimension === 3) return;
+    if (narrow) return;
     // A wide domain goes below the heading's words, a tall one beside them.
     const last = element('links');
     const heading = element('heading').offsetTop + last.offsetTop + last.offsetHeight + 10;
-    const leftEdge = camera.toClientX(camera.domain.min[0] ?? 0);
-    if (!narrow && leftEdge < headingWidth) camera.fit({ ...insets, top: heading });
+    if (camera.reaches(headingWidth, heading)) camera.fit({ ...insets, top: heading });
   }
 
   #listen(): void {

@@ -35,15 +35,17 @@ function rangeOf(curves: Curve[], pick: (curve: Curve) => ArrayLike<number>): Ra
       if (value > high) high = value;
     }
   }
-  return low <= high ? { low, high } : { low: 0, high: 1 };
+  return low <= high ? { low, high } : { low: 0, high: 0 };
 }
 
-// Round ends; zero stays in where it is near.
+// Round ends that differ as they are written; zero stays in where it is near.
 export function niceRange({ low, high }: Range): Range {
+  if (low === 0 && high === 0) return { low: 0, high: 1 };
   if (low >= 0 && low < 0.6 * high) return { low: 0, high: niceCeil(high * 1.02) };
   if (high <= 0 && high > 0.6 * low) return { low: -niceCeil(-low * 1.02), high: 0 };
-  const step = niceCeil(Math.max(high - low, 1e-6 * Math.max(Math.abs(low), Math.abs(high), 1e-9)) / 5);
-  return { low: Math.floor(low / step) * step, high: Math.ceil(high / step) * step };
+  const step = niceCeil(Math.max(high - low, 0.02 * Math.max(Math.abs(low), Math.abs(high), 1e-9)) / 5);
+  const from = Math.floor(low / step) * step;
+  return { low: from, high: Math.max(Math.ceil(high / step) * step, from + step) };
 }
 
 const padding = [10, 7] as const; // CSS pixels around the chart
@@ -69,15 +71,18 @@ export function drawChart(canvas: HTMLCanvasElement, chart: Chart): void {
   if (!prepared) return;
   const { context, width, height } = prepared;
   const top = chart.yLabel ? 50 : 20;
-  const box = { left: 1, top, width: width - 2, height: height - top - (chart.xLabel ? 18 : 4) };
   const found = rangeOf(chart.curves, (curve) => curve.x);
   const x = chart.xRange ? { low: chart.xRange[0], high: chart.xRange[1] } : found;
   const y = niceRange(rangeOf(chart.curves, (curve) => curve.y));
   header(context, chart, width);
+  // The ends of the axis stand left of it, where no curve comes.
+  const ends = [formatNumber(y.high), formatNumber(y.low)] as const;
+  const left = 6 + Math.max(26, ...ends.map((end) => context.measureText(end).width));
+  const box = { left, top, width: width - left - 1, height: height - top - (chart.xLabel ? 18 : 4) };
   context.fillStyle = textColor;
   context.textAlign = 'right';
-  context.fillText(formatNumber(y.high), width - 2, box.top + 9);
-  context.fillText(formatNumber(y.low), width - 2, box.top + box.height - 3);
+  context.fillText(ends[0], left - 5, box.top + 9);
+  context.fillText(ends[1], left - 5, box.top + box.height);
   context.textAlign = 'left';
   if (chart.xLabel) {
     context.fillText(formatNumber(x.low), box.left, height - 5);

@@ -62,7 +62,7 @@ function drawProbe(canvas: HTMLCanvasElement, { info, times, values }: ProbeSeri
   const size = several ? Math.hypot(...newest) : (newest[0] ?? NaN);
   drawChart(canvas, {
     title: info.name,
-    value: Number.isFinite(size) ? `${formatNumber(size)} ${info.unit}` : '',
+    value: Number.isFinite(size) ? `${formatNumber(size)} ${info.unit}` : '–', // nothing is there to measure
     xLabel: 's',
     xRange: [from, Math.max(last, from + 1e-3)],
     curves: values.map((list, k) => ({

@@ -29,7 +29,7 @@ export async function startGpu(setup: EngineSetup, allowSoftware: boolean): Prom
   try {
     await Promise.race([gpu.ready(), noAnswer()]);
     if (gpu.isSoftware && !allowSoftware) {
-      throw new Error(`${gpu.device} is a software adapter, far slower than Weir's C solver.`);
+      throw new Error(`WebGPU has only a software adapter here, ${gpu.device}.`);
     }
     return new GpuEngine(setup.weir, gpu, setup.newCanvas(), setup.onFault);
   } catch (error) {

@@ -8,6 +8,8 @@ const writeMs = 250;
 const solverNames = { gpu: 'WebGPU', worker: 'C on the CPU', main: 'C on the CPU' } as const;
 export const solverName = (engine: Engine): string => solverNames[engine.kind];
 
+type Cell = { value: string; label: string; className: string; title: string };
+
 export class StatusLine {
   readonly #numbers: HTMLElement;
   readonly #details: HTMLElement;
@@ -19,6 +21,7 @@ export class StatusLine {
   fps = 0;
   realTimeFactor = 0;
   stepsPerFrame = 0;
+  reason = ''; // why the engine is not the one that was asked for
 
   constructor(root: HTMLElement) {
     this.#numbers = root.querySelector('#numbers') as HTMLElement;
@@ -49,19 +52,34 @@ export class StatusLine {
     this.#write(engine, paused);
   }
 
+  // In place, so that what the pointer rests on stays.
+  #show(cells: Cell[]): void {
+    const list = this.#numbers;
+    while (list.children.length > cells.length) list.lastElementChild?.remove();
+    cells.forEach(({ value, label, className, title }, k) => {
+      const span = list.children[k] ?? list.appendChild(document.createElement('span'));
+      const bold = span.firstElementChild ?? document.createElement('b');
+      bold.textContent = value;
+      span.className = className;
+      if (title) span.setAttribute('title', title);
+      else span.removeAttribute('title');
+      span.replaceChildren(bold, label ? ` ${label}` : '');
+    });
+  }
+
   // What tells whether the numbers are to be trusted.
-  #methodCells({ clock, diagnostics }: EngineStats): HTMLElement[] {
+  #methodCells({ clock, diagnostics }: EngineStats): Cell[] {
     if (!clock) {
       return [
         cell(formatNumber(this.stepsPerFrame, 2), 'steps/frame'),
-        cell(diagnostics ? `${formatNumber(100 * diagnostics.densityErrorMean, 2)} %` : '–', 'density error'),
+        cell(diagnostics ? `${formatNumber(100 * diagnostics.densityErrorMean, 2)} %` : '–', 'density error', '', 'The mean of all particles'),
       ];
     }
     const { timeStep, machNumber, maxDensityError } = clock;
     return [
       cell(`${formatNumber(1000 * timeStep, 3)} ms`, 'time step'),
-      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : ''),
-      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : ''),
+      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : '', 'Of the fastest particle: its speed over the speed of sound'),
+      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : '', 'The largest of all particles'),
     ];
   }
 
@@ -74,20 +92,13 @@ export class StatusLine {
         ? cell('paused', `at ${stats.time.toFixed(3)} s`)
         : cell(`${this.realTimeFactor.toFixed(2)}×`, 'real time', this.realTimeFactor < 0.5 ? 'slow' : ''),
       ...this.#methodCells(stats),
-      cell(solverName(engine), ''),
+      cell(solverName(engine), '', '', engine.kind === 'gpu' ? '' : this.reason),
     ];
-    this.#numbers.replaceChildren(...cells);
+    this.#show(cells);
     const passes = stats.passes.map((pass) => `${pass.name} ${formatNumber(pass.milliseconds, 2)}`);
     const timing = passes.length > 0 ? `ms per pass: ${passes.join(' · ')}` : `${formatNumber(stats.stepMs, 2)} ms per step`;
     this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${formatNumber(this.stepsPerFrame, 2)} steps per frame   ·   ${stats.time.toFixed(2)} s simulated`;
   }
 }
 
-function cell(value: string, label: string, className = ''): HTMLElement {
-  const span = document.createElement('span');
-  const bold = document.createElement('b');
-  bold.textContent = value;
-  span.className = className;
-  span.append(bold, label ? ` ${label}` : '');
-  return span;
-}
+const cell = (value: string, label: string, className = '', title = ''): Cell => ({ value, label, className, title });

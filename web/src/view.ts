@@ -50,6 +50,7 @@ export class Camera {
   dimension = 2;
   #insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   #moved = false; // by the user: a new window size then keeps what is seen
+  #reached = false;
 
   // A scene: what it shows at first is all of it.
   setDomain(domain: Domain, dimension: number): void {
@@ -70,6 +71,32 @@ export class Camera {
     this.view.camera.yaw = homeYaw;
     this.view.camera.pitch = homePitch;
     this.fit(this.#insets);
+  }
+
+  // Whether the domain's outline comes into the window's upper left corner of that size, CSS pixels. A camera that the
+  // user has moved keeps its place: then the last answer holds.
+  reaches(width: number, height: number): boolean {
+    if (this.dimension !== 3) {
+      const { center, pixelsPerMeter } = this.view;
+      return (((this.domain.min[0] ?? 0) - center[0]) * pixelsPerMeter + this.width / 2) / this.pixelRatio < width;
+    }
+    if (!this.#moved) this.#reached = this.#edgesReach(width, height);
+    return this.#reached;
+  }
+
+  #edgesReach(width: number, height: number): boolean {
+    const { min, max } = this.domain;
+    for (let edge = 0; edge < 12; edge++) {
+      const axis = edge >> 2;
+      for (let part = 0; part <= 1; part += 1 / 16) {
+        const share = [edge & 1, (edge >> 1) & 1];
+        share.splice(axis, 0, part);
+        const place = [0, 1, 2].map((k) => (min[k] ?? 0) + (share[k] ?? 0) * ((max[k] ?? 0) - (min[k] ?? 0))) as Triple;
+        const seen = this.toClient(place);
+        if (seen && seen[0] < width && seen[1] < height) return true;
+      }
+    }
+    return false;
   }
 
   // The free rectangle of the window in device pixels.
@@ -161,11 +188,6 @@ export class Camera {
     const x = (focal[0] * dot(offset, right)) / z + pose.shift[0];
     const y = (focal[1] * dot(offset, up)) / z + pose.shift[1];
     return [((x + 1) * this.width) / 2 / this.pixelRatio, ((1 - y) * this.height) / 2 / this.pixelRatio];
-  }
-
-  // Metres to CSS pixels of the window (2D).
-  toClientX(x: number): number {
-    return ((x - this.view.center[0]) * this.view.pixelsPerMeter + this.width / 2) / this.pixelRatio;
   }
 
   // CSS pixels of the window to metres (2D).

@@ -240,6 +240,35 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    test('nothing lies over anything else', async () => {
+      for (const [width, height] of [[1440, 900], [1000, 640], [800, 560], [390, 844]]) {
+        const tab = await open('backend=cpu&scene=kleefsman&particles=300', { size: { width, height, deviceScaleFactor: 1 } });
+        await tab.frames(1);
+        await tab.until('probes', () => document.querySelectorAll('#probes canvas').length === 3);
+        const { boxes, domain } = await tab.evaluate(() => ({
+          boxes: ['#heading h1', '#links', '#panel', '#plot', '#probes canvas:nth-child(1)', '#probes canvas:nth-child(2)', '#probes canvas:nth-child(3)', '#status', '#legend']
+            .map((name) => ({ name, ...document.querySelector(name).getBoundingClientRect().toJSON() })).filter((box) => box.width > 0),
+          domain: [0, 1].flatMap((x) => [0, 1].flatMap((y) => [0, 1].map((z) => window.weir.camera.toClient([3.22 * x, y, z])))),
+        }));
+        for (const a of boxes) {
+          assert.ok(a.left >= 0 && a.top >= 0 && a.right <= width && a.bottom <= height, `${width} x ${height}: ${a.name} leaves the window`);
+          for (const b of boxes) {
+            const apart = a === b || a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+            assert.ok(apart, `${width} x ${height}: ${a.name} lies over ${b.name}`);
+          }
+        }
+        const panel = boxes.find(({ name }) => name === '#panel');
+        if (width > 760) assert.ok(panel.height >= 150, `${width} x ${height}: the panel has ${panel.height} pixels`);
+        // The corners of the domain stay clear of the heading and the side.
+        const { right, bottom } = boxes.find(({ name }) => name === (width > 760 ? '#links' : '#heading h1'));
+        for (const [x, y] of domain) {
+          assert.ok(!(x < right && y < bottom), `${width} x ${height}: a corner of the domain at ${x}, ${y}`);
+          assert.ok(width < 760 || x < panel.left, `${width} x ${height}: a corner of the domain at ${x}, under the panel`);
+        }
+        await tab.close();
+      }
+    });
+
     test('canvas follows size and pixel ratio', async () => {
       const tab = await open('backend=cpu&particles=1000');
       await tab.frames(1);
