@@ -1,20 +1,21 @@
 // validation.html: choose a case, watch it, see what is measured grow over the reference, and how the gates judge.
-// ?case=NAME, ?resolution=coarse|normal|fine, ?run=1 starts at once.
+// ?case=NAME, ?resolution=coarse|normal|fine, ?solver=gpu|cpu, ?run=1 starts at once.
 import { drawChart, type Curve } from './chart.ts';
 import { CpuPicture } from './engine_cpu.ts';
 import { formatNumber, niceCeil } from './format.ts';
 import { GateKind, resolutions, validationCases, type CaseInfo, type CurveData, type Gate, type Resolution } from './validation_api.ts';
-import type { FromValidator, ToValidator } from './validation_worker.ts';
+import type { FromValidator, Solver, ToValidator } from './validation_worker.ts';
 import { Camera, watchSize } from './view.ts';
 import { Weir } from './weir.ts';
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const query = new URLSearchParams(location.search);
 const colors = ['#62c4ff', '#4fe0c8', '#ffb454', '#c79bff', '#ff8f8f', '#9be06a'];
+const firstCase = 'dam_break'; // that visitors see
 const referenceColor = '#e8f1ff';
 
 export type ValidationState = {
-  running: boolean; caseName: string; curves: CurveData[]; gates: Gate[]; passed: boolean | null; time: number; frames: number;
+  running: boolean; device: string; caseName: string; curves: CurveData[]; gates: Gate[]; passed: boolean | null; time: number; frames: number;
 };
 declare global {
   interface Window {
@@ -23,7 +24,7 @@ declare global {
 }
 
 class ValidationPage {
-  readonly state: ValidationState = { running: false, caseName: '', curves: [], gates: [], passed: null, time: 0, frames: 0 };
+  readonly state: ValidationState = { running: false, device: '', caseName: '', curves: [], gates: [], passed: null, time: 0, frames: 0 };
   readonly #weir: Weir;
   readonly #cases: CaseInfo[];
   readonly #worker: Worker;
@@ -35,12 +36,13 @@ class ValidationPage {
   #job = 0;
   #plots: HTMLCanvasElement[] = [];
   #label = '';
+  #changed = false; // since it was last drawn
   #fastest = 0; // square of the fluid's largest speed in this run
 
   constructor(weir: Weir, module: WebAssembly.Module) {
     this.#weir = weir;
     this.#cases = validationCases(weir);
-    this.#chosen = this.#cases.find(({ name }) => name === query.get('case')) ?? (this.#cases[0] as CaseInfo);
+    this.#chosen = this.#cases.find(({ name }) => name === query.get('case')) ?? this.#cases.find(({ name }) => name === firstCase) ?? (this.#cases[0] as CaseInfo);
     this.#worker = new Worker(new URL('./validation_worker.ts', import.meta.url), { type: 'module', name: 'validation' });
     this.#worker.onmessage = (event: MessageEvent<FromValidator>) => this.#receive(event.data);
     this.#worker.onerror = (event) => this.#say(event.message || 'the worker could not be loaded');
@@ -50,12 +52,24 @@ class ValidationPage {
     watchSize(element('stage'), (width, height, ratio) => {
       Object.assign(this.#camera, { width, height, pixelRatio: ratio });
       this.#camera.fit({ left: 14, right: 14, top: 14, bottom: 14 });
+      this.#changed = true;
     });
     element('run').addEventListener('click', () => this.run());
     element('stop').addEventListener('click', () => this.stop('stopped'));
-    element<HTMLButtonElement>('run').disabled = false;
     requestAnimationFrame(this.#draw);
     this.#choose(this.#chosen);
+  }
+
+  // The worker knows by now what there is to compute on: WebGPU first where a real graphics card does it.
+  #ready({ gpu, isSoftware }: Extract<FromValidator, { type: 'ready' }>): void {
+    const select = element<HTMLSelectElement>('solver');
+    select.replaceChildren(new Option('C on the CPU', 'cpu'));
+    if (gpu) select.prepend(new Option(isSoftware ? 'WebGPU (in software)' : 'WebGPU', 'gpu'));
+    select.title = gpu || 'This browser gives no WebGPU to workers.';
+    const wanted = query.get('solver');
+    select.value = wanted === 'cpu' || !gpu ? 'cpu' : wanted === 'gpu' || !isSoftware ? 'gpu' : 'cpu';
+    select.disabled = false;
+    element<HTMLButtonElement>('run').disabled = false;
     if (query.get('run')) this.run();
   }
 
@@ -121,7 +135,8 @@ class ValidationPage {
     this.#choose(this.#chosen);
     this.state.running = true;
     const resolution = element<HTMLSelectElement>('resolution').value as Resolution;
-    this.#send({ type: 'start', job: ++this.#job, caseIndex: this.#chosen.index, resolution });
+    const solver = element<HTMLSelectElement>('solver').value as Solver;
+    this.#send({ type: 'start', job: ++this.#job, caseIndex: this.#chosen.index, resolution, solver });
     this.#say('starting');
     this.#go();
     this.#mark();
@@ -141,12 +156,14 @@ class ValidationPage {
   }
 
   #receive(message: FromValidator): void {
+    if (message.type === 'ready') return this.#ready(message);
     if (message.job !== this.#job) return;
     if (message.type === 'run') {
       this.#showRun(message);
     } else if (message.type === 'frame') {
       this.#picture?.setValues(message.values);
       this.#stretchColors(message.values);
+      this.#changed = true;
       element<HTMLProgressElement>('progress').value = message.progress;
       this.state.time = message.time;
       this.state.frames++;
@@ -162,7 +179,8 @@ class ValidationPage {
     }
   }
 
-  #showRun({ run, runs, scene, particles, fluidSlots }: Extract<FromValidator, { type: 'run' }>): void {
+  #showRun({ run, runs, scene, particles, fluidSlots, device }: Extract<FromValidator, { type: 'run' }>): void {
+    this.state.device = device;
     this.#label = `run ${run + 1} of ${runs.length}, ${runs[run]?.label ?? ''}: `;
     if (!this.#picture) {
       this.#canvas = document.createElement('canvas');
@@ -194,7 +212,8 @@ class ValidationPage {
   readonly #draw = (): void => {
     requestAnimationFrame(this.#draw);
     const canvas = this.#canvas;
-    if (!canvas || !this.#picture) return;
+    if (!canvas || !this.#picture || !this.#changed) return;
+    this.#changed = false;
     if (canvas.width !== this.#camera.width) canvas.width = this.#camera.width;
     if (canvas.height !== this.#camera.height) canvas.height = this.#camera.height;
     this.#picture.draw(this.#camera.view);

@@ -48,13 +48,14 @@ export class Validation {
     this.#throwIf(this.#context.c.weir_validation_prepare(this.#pointer, run, scene.pointer));
   }
 
-  begin(run: number, sim: Sim): void {
-    this.#throwIf(this.#context.c.weir_validation_begin(this.#pointer, run, sim.pointer));
+  // False while the GPU is not done: then it is to be called again.
+  begin(run: number, sim: Sim): boolean {
+    return this.#isDone(this.#context.c.weir_validation_begin(this.#pointer, run, sim.pointer));
   }
 
-  // Simulates until the next measurement and takes it.
-  advance(sim: Sim): void {
-    this.#throwIf(this.#context.c.weir_validation_advance(this.#pointer, sim.pointer));
+  // Simulates until the next measurement and takes it. False as above.
+  advance(sim: Sim): boolean {
+    return this.#isDone(this.#context.c.weir_validation_advance(this.#pointer, sim.pointer));
   }
 
   get runIsDone(): boolean {
@@ -103,6 +104,11 @@ export class Validation {
 
   destroy(): void {
     this.#context.c.weir_validation_destroy(this.#pointer);
+  }
+
+  #isDone(status: Status): boolean {
+    this.#throwIf(status);
+    return status === Status.ok;
   }
 
   #throwIf(status: Status): void {

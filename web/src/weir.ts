@@ -481,6 +481,11 @@ export class Sim {
     this.#throwIf(this.#context.c.weir_sim_step(this.pointer, steps));
   }
 
+  // Takes that many steps, fewer if they come to `time`. On the GPU poll() tells when they are done.
+  stepUntil(steps: number, time: number): void {
+    this.#throwIf(this.#context.c.weir_sim_step_until(this.pointer, steps, time));
+  }
+
   // Takes the steps due after that much more wall time; returns their number.
   advance(wallSeconds: number): number {
     const steps = this.#context.c.weir_web_sim_advance(this.pointer, wallSeconds);

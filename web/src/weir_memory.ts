@@ -37,7 +37,7 @@ type Name =
   | 'weir_validation_progress' | 'weir_validation_judge' | 'weir_validation_gate_count'
   | 'weir_validation_curve_count' | 'weir_web_run_text' | 'weir_web_run_numbers' | 'weir_web_gate' | 'weir_web_curve'
   | 'weir_probes_create' | 'weir_probes_destroy' | 'weir_probes_count' | 'weir_probes_update' | 'weir_probes_clear'
-  | 'weir_web_probe_info' | 'weir_web_probe_series' | 'weir_scene_look' | 'weir_sim_fluid_slots' | 'weir_sim_run_until' | 'weir_web_sim_advance' | 'weir_web_sim_create' | 'weir_web_sim_diagnose'
+  | 'weir_web_probe_info' | 'weir_web_probe_series' | 'weir_scene_look' | 'weir_sim_fluid_slots' | 'weir_sim_run_until' | 'weir_sim_step_until' | 'weir_web_sim_advance' | 'weir_web_sim_create' | 'weir_web_sim_diagnose'
   | 'weir_web_sim_pass_times' | 'weir_web_sim_set_tool' | 'weir_web_sim_step_count' | 'weir_web_version';
 export type WeirExports = WebGpuExports & { _initialize(): void } & Record<Name, Call>;
 

@@ -385,7 +385,8 @@ for (const kind of browsers) {
       await tab.until('frames', () => window.validation.frames > 2);
       assert.ok(await tab.evaluate(() => document.querySelectorAll('#plots canvas').length) >= 1);
       await tab.until('the verdict', () => window.validation.passed !== null, null);
-      const { gates, curves } = await tab.evaluate(() => window.validation);
+      const { gates, curves, device } = await tab.evaluate(() => window.validation);
+      assert.match(device, /^CPU/, 'a software adapter is not the default');
       assert.ok(gates.length >= 5 && gates.every((gate) => Number.isFinite(gate.value)), JSON.stringify(gates));
       assert.ok(curves.some((curve) => curve.isReference && curve.x.length > 5));
       const rows = await tab.evaluate(() => document.querySelectorAll('#verdict tr.passed, #verdict tr.failed').length);
@@ -394,6 +395,21 @@ for (const kind of browsers) {
       await tab.evaluate(() => document.querySelector('[data-case="taylor_green"]').click());
       await tab.page.click('#run');
       await tab.until('frames', () => window.validation.frames > 1);
+      await tab.page.click('#stop');
+      assert.equal(await tab.evaluate(() => window.validation.running), false);
+      await tab.close();
+    });
+
+    test('validation.html measures on WebGPU too', async () => {
+      const tab = await Tab.open(browser, `${server.url}validation.html?case=lattice_density&solver=gpu&run=1`);
+      await tab.until('the verdict', () => typeof window.validation?.passed === 'boolean');
+      const { gates, device, passed } = await tab.evaluate(() => window.validation);
+      assert.ok(device !== '' && !/^CPU/.test(device), `measured on ${device}`);
+      assert.ok(passed && gates.every((gate) => Number.isFinite(gate.value)), JSON.stringify(gates));
+      // Steps are slow on a software adapter: the first ones of another case.
+      await tab.evaluate(() => document.querySelector('[data-case="taylor_green"]').click());
+      await tab.page.click('#run');
+      await tab.until('simulated time', () => window.validation.frames > 0 && window.validation.time > 0);
       await tab.page.click('#stop');
       assert.equal(await tab.evaluate(() => window.validation.running), false);
       await tab.close();
