@@ -32,12 +32,10 @@ fn seconds_of(ticks: vec2u) -> f32 {
     return f32(ticks.y) * 0.0009765625 + f32(ticks.x) / TICKS_PER_ROOT / TICKS_PER_ROOT;
 }
 
-// The largest values of a step give the longest step that may follow.
-fn take_maxima() {
+// The largest values of the last step give the longest one that may follow that under way.
+fn limit_step() {
     control.max_speed = bitcast<f32>(control.speed_bits);
     let acceleration = bitcast<f32>(control.acceleration_bits);
-    control.speed_bits = 0u;
-    control.acceleration_bits = 0u;
     control.free_dt = parameters.time_step;
     if FIXED_STEP {
         return;
@@ -56,45 +54,41 @@ fn take_maxima() {
 
 // Length of the next step; the last two before `until` share what is left, so that none is tiny. 0: no step is left.
 fn choose_step() {
-    control.dt = 0.0;
-    if control.steps_left > 0u && is_before(control.time, control.until) {
+    control.next_dt = 0.0;
+    if control.steps_left > 0u && is_before(control.time, control.until) && control.bad_step == 0xffffffffu {
         let left = seconds_of(subtract_ticks(control.until, control.time));
         let shortened = select(control.free_dt, 0.5 * left, control.free_dt > 0.5 * left);
-        control.dt = select(shortened, left, control.free_dt >= left);
+        control.next_dt = select(shortened, left, control.free_dt >= left);
     }
-    control.running = select(0u, 1u, control.dt > 0.0 && control.bad_step == 0xffffffffu);
-    control.drift_half = select(0.0, 0.5 * control.dt, control.running == 1u);
     let chance = control.steps % SORT_INTERVAL == 0u && control.stale == 1u;
-    control.sorting = select(0u, 1u, control.running == 1u && (chance || any_layer_due()));
+    control.sorting = select(0u, 1u, control.next_dt > 0.0 && (chance || any_layer_due()));
 }
 
 // Whether lists and cells are to be made anew at the next chance, because they might not last until the one after it,
 // and for which way they would be made.
 fn judge_order() {
-    let way = control.moved_finish + control.moved_drift;
-    control.travelled += way;
-    control.moved_finish = 0u;
-    control.moved_drift = 0u;
-    let fastest = control.max_speed * max(control.free_dt, control.last_dt) * constants.inverse_quantum;
+    let way = control.moved_finish[control.side] + control.moved_drift[control.side];
+    control.reached = control.travelled + way;
+    control.moved_finish[1u - control.side] = 0u;
+    control.moved_drift[1u - control.side] = 0u;
+    let fastest = control.max_speed * max(control.free_dt, control.dt) * constants.inverse_quantum;
     let until_next = f32(SORT_INTERVAL) * (1.25 * max(fastest, f32(way)) + 4.0);
-    let moved = f32(control.travelled - control.sorted_at);
+    let moved = f32(control.reached - control.sorted_at);
     control.stale = select(0u, 1u, moved + until_next > f32(control.allowance));
     control.next_allowance = u32(clamp(2.0 * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE));
 }
 
-// Whether the step under way moves anything.
-fn is_stepping() -> bool {
-    return control.running == 1u && control.bad_step == 0xffffffffu;
-}
-
-// Between forces and finish: the step gets its number and time, and the next one its length.
+// Before forces: the step under way gets its number, length and time, and the next one its length. Not in a read, between
+// steps.
 fn advance_clock() {
-    if !is_stepping() {
-        control.running = 0u;
-        control.finishing = 0u;
+    if control.running == 0u || control.next_dt == 0.0 || control.bad_step != 0xffffffffu {
+        control.stepping = 0u;
         return;
     }
-    control.finishing = 1u;
+    control.stepping = 1u;
+    control.last_side = control.side;
+    control.dt = control.next_dt;
+    control.began = control.time;
     let end = add_ticks(control.time, ticks_of(control.dt));
     // A step that was shortened to end there ends there exactly.
     let left = seconds_of(subtract_ticks(control.until, control.time));
@@ -102,13 +96,12 @@ fn advance_clock() {
     if control.dt == left || !is_before(end, control.until) {
         control.time = control.until;
     }
-    control.last_dt = control.dt;
     control.steps += 1u;
     control.steps_left -= 1u;
+    limit_step();
+    control.speed_bits = 0u;
+    control.acceleration_bits = 0u;
     control.error_bits = 0u;
-    control.last_side = control.side;
-    control.side = 1u - control.side;
-    take_maxima();
     judge_order();
     choose_step();
 }

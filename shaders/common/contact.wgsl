@@ -47,7 +47,7 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
     let barrier_range = quanta_of_spacings(BARRIER_RANGE);
     let brake_range = quanta_of_spacings(BRAKE_RANGE);
     let solid = is_solid(u32(own.w));
-    let start = side_start(control.side);
+    let start = reading_start();
     var sum = Vector();
     var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
@@ -79,7 +79,7 @@ fn contact_force(own: vec4i) -> Vector {
     let group = u32(own.w);
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
-    let start = side_start(control.side);
+    let start = reading_start();
     var walk = walk_around(place_of(own), i32(1u << constants.coordinate_bits) + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];

@@ -1,7 +1,7 @@
 // Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, added(), add_pair(), and
 // add_itself(), what the particle adds to its own sums: a list may hold it several times, and each time `itself` keeps it
-// from adding anything. Furthermore share_of(), the sums of one lane by sum_pairs(), and way_since_sort(), the largest way
-// of a particle from where it was sorted.
+// from adding anything. Furthermore share_of(), the sums of one lane by sum_pairs(); reading_start(), where in `coordinate`
+// and `motion` the particles are; and way_since_sort(), the largest way of one from where it was sorted.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then, eight to a chunk; so it misses nobody while no particle has moved farther than
@@ -41,7 +41,7 @@ fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
 
 // A lane's share: every LANES-th chunk of the list, or candidate of a run of cells.
 fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
-    let start = side_start(control.side);
+    let start = reading_start();
     let moved = way_since_sort();
     var sums: Sums;
     if LISTS && moved <= control.allowance {

@@ -14,40 +14,44 @@ fn is_fluid(group: u32) -> bool {
 }
 
 // WeirWcsphControl in src/gpu/wcsph.h. Times are 64-bit counts of 2^-42 s, low word first: adding is exact.
+//
+// No pass reads what another thread of it writes. One thread of `walls` (or `time_step`) does the clock for the passes from
+// `forces` on, and one thread of `forces` tells the next step's sort and `walls` where it left the particles: running,
+// side, travelled.
 struct Control {
     until: vec2u,           // written by the host for a batch of steps: no step passes it;
     steps_left: u32,        // and how many steps it may take
-    running: u32,           // 1: the step under way may sort and sum
-    finishing: u32,         // 1: and after it
+    running: u32,           // 1: the step under way may sort, and sum over what solids see;
+    stepping: u32,          // 1: and do all that follows
     steps: u32,
-    time: vec2u,            // at the end of the last step
-    dt: f32,                // s, of the step that count to solids belong to
-    free_dt: f32,           // the next one's, if nothing shortens it
-    last_dt: f32,           // s, of the step that kick to finish belong to
-    drift_half: f32,        // s, half of the next step's length; 0: it is not taken yet
-    max_speed: f32,         // m/s, of the fluid in the last step
-    speed_bits: u32,        // largest speed and acceleration of the step under way, as bits: those of floats >= 0
-                            // have their order
-    acceleration_bits: u32,
+    time: vec2u,            // at the end of the last step, or of the one under way from when it is `stepping`;
+    began: vec2u,           // at the begin of that
+    dt: f32,                // s, of the step under way, once it is `stepping`
+    next_dt: f32,           // s, of the step after it; 0: it is not taken yet
+    free_dt: f32,           // the same, if nothing shortens it
+    max_speed: f32,         // m/s, of the fluid in the step before
+    speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
+    acceleration_bits: u32, // have their order
     error_bits: u32,        // largest density error of the last step
     bad_particles: u32,
     bad_step: u32,          // 0xffffffff: none
     bad_id: u32,
-    starting: u32,          // 1: forces_read takes the maxima of a new state
     bad_place: vec4i,       // coordinate of particle bad_id
+    starting: u32,          // 1: forces_read takes the maxima of a new state
     drained: u32,
     lost: u32,
     emitted: u32,
     restored: u32,          // 1: after a blow-up the last good state was put back
     // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
-    side: u32,              // of the working copies, that forces and walls read
-    last_side: u32,         // and that finish reads: the other one
-    sorting: u32,           // 1: the particles are sorted before the step under way
+    side: u32,              // of the working copies, that sorts write and walls read;
+    last_side: u32,         // that forces and what follows read: they write the other one
+    sorting: u32,           // 1: the particles are sorted before the next step
     stale: u32,             // 1: and so they are at the next chance
-    travelled: u32,         // up to the last step's kick
-    moved_finish: u32,      // since, in the second half of its move,
-    moved_drift: u32,       // and in the first half of the next one's
+    travelled: u32,         // up to the last step's kick;
+    reached: u32,           // up to that of the step under way
     sorted_at: u32,         // way when the particles were sorted
+    moved_finish: array<u32, 2>,// since the last kick, in the second half of its step's move,
+    moved_drift: array<u32, 2>,// and in the first half of the next one's; by the side that they moved to
     allowance: u32,         // way after which lists made then may miss neighbours
     next_allowance: u32,
     next_due: vec2u,        // time at which emitters may have a layer next
@@ -58,13 +62,13 @@ struct SharedControl {
     until: vec2u,
     steps_left: u32,
     running: u32,
-    finishing: u32,
+    stepping: u32,
     steps: u32,
     time: vec2u,
+    began: vec2u,
     dt: f32,
+    next_dt: f32,
     free_dt: f32,
-    last_dt: f32,
-    drift_half: f32,
     max_speed: f32,
     speed_bits: atomic<u32>,
     acceleration_bits: atomic<u32>,
@@ -72,8 +76,8 @@ struct SharedControl {
     bad_particles: atomic<u32>,
     bad_step: atomic<u32>,
     bad_id: atomic<u32>,
-    starting: u32,
     bad_place: vec4i,
+    starting: u32,
     drained: atomic<u32>,
     lost: atomic<u32>,
     emitted: u32,
@@ -83,9 +87,10 @@ struct SharedControl {
     sorting: u32,
     stale: u32,
     travelled: u32,
-    moved_finish: atomic<u32>,
-    moved_drift: atomic<u32>,
+    reached: u32,
     sorted_at: u32,
+    moved_finish: array<atomic<u32>, 2>,
+    moved_drift: array<atomic<u32>, 2>,
     allowance: u32,
     next_allowance: u32,
     next_due: vec2u,

@@ -7,25 +7,25 @@ var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn begin(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        control.finishing = 0u;
         atomicStore(&way_most, 0u);
         choose_step();
+        control.running = select(0u, 1u, control.next_dt > 0.0);
     }
     storageBarrier();
     workgroupBarrier();
     if MOVING_SOLIDS {
+        let half = 0.5 * control.next_dt;
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
             let before = solid_state[NOW + n];
-            let after = drifted_solid(n, before, control.drift_half,
-                                      add_ticks(control.time, ticks_of(control.drift_half)));
+            let after = drifted_solid(n, before, half, add_ticks(control.time, ticks_of(half)));
             solid_state[NOW + n] = after;
-            if control.drift_half > 0.0 {
+            if half > 0.0 {
                 atomicMax(&way_most, solid_way(n, before, after));
             }
         }
         workgroupBarrier();
         if local == 0u {
-            control.moved_drift = max(control.moved_drift, atomicLoad(&way_most));
+            control.moved_drift[control.side] = max(control.moved_drift[control.side], atomicLoad(&way_most));
         }
     }
 }

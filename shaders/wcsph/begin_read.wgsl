@@ -7,11 +7,13 @@
 fn begin_read() {
     control.running = select(0u, 1u, is_well(control.bad_step, control.restored));
     if control.running == 1u {
+        control.moved_finish[0] = control.moved_finish[control.side];
+        control.moved_drift[0] = control.moved_drift[control.side];
         control.side = 0u;
     }
     if control.restored == 1u {
         // Ways of the step that went wrong.
-        control.moved_finish = 0u;
-        control.moved_drift = 0u;
+        control.moved_finish[0] = 0u;
+        control.moved_drift[0] = 0u;
     }
 }

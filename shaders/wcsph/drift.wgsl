@@ -1,7 +1,7 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
-// The later steps' is done by finish. What is to be sorted stays in the state, the rest goes to a working copy.
+// The later steps' is done where the last one finishes. What is to be sorted stays in the state, the rest goes to a working copy.
 //
-// in:  coordinate, motion, id, kicked (rates of the last step in its second half), solid_state, local_place, control
+// in:  coordinate, motion, id, kicked (drho/dt of the last step in its second half), solid_state, local_place, control
 // out: coordinate, motion, counts and largest way in control
 @group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
@@ -21,12 +21,12 @@ fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
-    if i < constants.particle_count && control.drift_half > 0.0 {
+    if i < constants.particle_count && control.next_dt > 0.0 {
         drift_particle(i, select(side_start(control.side), 0u, control.sorting == 1u) + i);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&way_most) > 0u {
-        atomicMax(&control.moved_drift, atomicLoad(&way_most));
+        atomicMax(&control.moved_drift[control.side], atomicLoad(&way_most));
     }
 }
 
@@ -36,7 +36,7 @@ fn drift_particle(i: u32, target_slot: u32) {
     var at = old;
     let group = u32(old.w);
     if is_fluid(group) {
-        let half = control.drift_half;
+        let half = 0.5 * control.next_dt;
         if control.steps > 0u {
             own.w += half * kicked[constants.particle_count + i].w;
         }

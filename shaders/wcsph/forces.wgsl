@@ -1,16 +1,27 @@
 // Acceleration from pressure, viscosity and body forces, with the kick: new velocities; shifting velocity; drho/dt; the
-// fluid's force on the particles of free bodies. The largest speed and acceleration of the fluid.
+// fluid's force on the particles of free bodies. The largest speed and acceleration of the fluid. Where no solid moves, the
+// step's second half and the first half of the next one's move too (common/finish.wgsl).
 //
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
 // out: kicked: new velocity and density; from particle_count on: shifting velocity and drho/dt. Of particles of free bodies:
-//      force of contact and density; force of the fluid.
+//      force of contact and density; force of the fluid. control: maxima, where the next step finds the particles
+//      Where no solid moves: coordinate, motion as pass finish leaves them; of kicked drho/dt alone, if no step follows.
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read> motion: array<vec4f>;
 @group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
-@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+
+// Whether it does what otherwise pass finish does.
+const FINISHES = !MOVING_SOLIDS && !FORCES_READ;
+
+// Of the working copy that it reads: a read is between two steps.
+fn reading_side() -> u32 {
+    return select(control.last_side, control.side, FORCES_READ);
+}
+
+fn reading_start() -> u32 {
+    return side_start(reading_side());
+}
 
 struct Sums {
     pressure: Vector,   // of p_j
@@ -70,8 +81,11 @@ fn added(a: Sums, b: Sums) -> Sums {
 }
 
 fn way_since_sort() -> u32 {
-    return control.travelled + atomicLoad(&control.moved_finish) + atomicLoad(&control.moved_drift)
-        - control.sorted_at;
+    if FORCES_READ {
+        return control.travelled + atomicLoad(&control.moved_finish[control.side])
+            + atomicLoad(&control.moved_drift[control.side]) - control.sorted_at;
+    }
+    return control.reached - control.sorted_at;
 }
 
 fn add_itself(sums: ptr<function, Sums>, own: Own) {
@@ -251,7 +265,6 @@ fn wants_force(group: u32) -> bool {
 // particle on the same place. What is not finite is a matter for health.
 var<workgroup> speed_most: atomic<u32>; // wgpu-native does not zero them
 var<workgroup> acceleration_most: atomic<u32>;
-var<workgroup> error_most: atomic<u32>;
 
 fn take_speed(square: f32) {
     let bits = bitcast<u32>(sqrt(square));
@@ -267,15 +280,11 @@ fn take_acceleration(square: f32) {
     }
 }
 
-fn take_density(excess: f32) {
-    atomicMax(&error_most, bitcast<u32>(abs(excess) / parameters.rest_density));
-}
-
 fn clear_maxima() {
     atomicStore(&speed_most, 0u);
     atomicStore(&acceleration_most, 0u);
-    if FORCES_READ {
-        atomicStore(&error_most, 0u);
+    if FINISHES || FORCES_READ {
+        clear_finish();
     }
 }
 
@@ -312,17 +321,31 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
         return;
     }
     let new_velocity = velocity + select(0.0, control.dt, free) * acceleration;
-    kicked[i] = vec4f(wide(new_velocity), own_motion.w);
     var shift = vec4f(0.0);
     if SHIFTING && inside {
         shift = shift_of(sums);
     }
     shift.w = rate_of(sums, own_motion.w, push, shift_rate_of(sums, own_motion.w, surface, shift.w));
-    kicked[constants.particle_count + i] = shift;
     take_speed(dot(new_velocity, new_velocity));
     if free {
         take_acceleration(dot(acceleration, acceleration));
     }
+    let new_motion = vec4f(wide(new_velocity), own_motion.w);
+    if !FINISHES || control.next_dt == 0.0 {
+        kicked[constants.particle_count + i] = shift;
+    }
+    if FINISHES {
+        finish_fluid(i, own, new_motion, shift);
+    } else {
+        kicked[i] = new_motion;
+    }
+}
+
+// One thread tells the next step's sort and walls, which run after this pass, where they find the particles.
+fn hand_over() {
+    control.running = select(0u, 1u, control.next_dt > 0.0);
+    control.side = 1u - control.last_side;
+    control.travelled = control.reached;
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -334,7 +357,10 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     workgroupBarrier();
     let thread = thread_index(workgroup, workgroups, local);
     let i = thread / LANES;
-    let runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
+    var runs = control.stepping == 1u;
+    if FORCES_READ {
+        runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
+    }
     let works = i < constants.particle_count && runs;
     leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
@@ -344,33 +370,46 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
         publish_maxima();
     }
+    if FINISHES && local == 0u {
+        publish_finish();
+    }
+    if !FORCES_READ && thread == 0u && runs {
+        hand_over();
+    }
 }
 
 fn share_of(i: u32, lane: u32) -> Sums {
-    let own = coordinate[side_start(control.side) + i];
+    let own = coordinate[reading_start() + i];
     let group = u32(own.w);
     if group == GROUP_EMPTY || (HAS_SOLIDS && is_solid(group) && !wants_force(group)) {
         return Sums();
     }
-    return sum_pairs(i, place_of(own), own_of(own, motion[side_start(control.side) + i]), lane);
+    return sum_pairs(i, place_of(own), own_of(own, motion[reading_start() + i]), lane);
 }
 
 // By the particle's first thread, the workgroup's thread `local`.
 fn forces_on(i: u32, local: u32) {
-    let own = coordinate[side_start(control.side) + i];
-    let own_motion = motion[side_start(control.side) + i];
+    let own = coordinate[reading_start() + i];
+    let own_motion = motion[reading_start() + i];
     let group = u32(own.w);
-    if !HAS_SOLIDS || !is_solid(group) {
-        if group == GROUP_EMPTY {
-            kicked[i] = vec4f(0.0);
-        } else {
-            forces_on_fluid(i, own, own_motion, local);
-        }
+    if is_fluid(group) {
+        forces_on_fluid(i, own, own_motion, local);
         return;
     }
-    // A surface that slides along itself displaces no fluid. Of a moving solid pass kick knows better.
-    kicked[i] = vec4f(vec3f(0.0), own_motion.w);
-    if wants_force(group) {
+    // Of a moving solid pass kick knows better.
+    var kept = vec4f(0.0);
+    if HAS_SOLIDS && is_solid(group) {
+        kept.w = own_motion.w;
+    }
+    if FINISHES {
+        if HAS_SOLIDS && is_solid(group) {
+            kept += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);
+        }
+        leave(i, own, kept);
+        return;
+    }
+    kicked[i] = kept;
+    if HAS_SOLIDS && is_solid(group) && wants_force(group) {
         let acceleration = force_on_solid(i, own, own_motion, local);
         if FORCES_READ {
             kicked[i] = vec4f(wide(acceleration), linear_pressure(own_motion.w));

@@ -14,7 +14,7 @@
 fn kick(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
         @builtin(local_invocation_index) local: u32) {
     let particle = thread_index(workgroup, workgroups, local);
-    if particle >= constants.particle_count - constants.first_solid || control.finishing == 0u {
+    if particle >= constants.particle_count - constants.first_solid || control.stepping == 0u {
         return;
     }
     let i = solid_slot[particle];

@@ -20,7 +20,7 @@ fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
     }
     let thread = thread_index(workgroup, workgroups, local);
     if thread == 0u {
-        control.sorted_at = control.travelled + control.moved_finish + control.moved_drift;
+        control.sorted_at = control.travelled + control.moved_finish[control.side] + control.moved_drift[control.side];
         control.allowance = control.next_allowance;
     }
     for (var i = thread; i < constants.particle_count; i += workgroups.x * workgroups.y * WORKGROUP_SIZE) {

@@ -1,7 +1,7 @@
-// New velocities of walls and bodies from the forces on them, the step's time and the length of the next one (as pass
-// time_step), the second half of the solids' move and the first half of the next step's. One workgroup.
+// New velocities of walls and bodies from the forces on them, the second half of the solids' move and the first half of the
+// next step's. One workgroup.
 //
-// in:  solid_state, solid_sum, blocks, motion_rows, control and its maxima
+// in:  solid_state, solid_sum, blocks, motion_rows, control
 // out: solid_state, control
 @group(0) @binding(BINDING_solid_sum) var<storage, read> solid_sum: array<vec4f>;
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
@@ -45,35 +45,26 @@ fn solids(@builtin(local_invocation_index) local: u32) {
         atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
-    if is_stepping() {
+    if control.stepping == 1u {
+        let next_half = 0.5 * control.next_dt;
+        let next = add_ticks(control.time, ticks_of(next_half));
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
+            let kicked = kicked_solid(n);
+            let finished = drifted_solid(n, kicked, 0.5 * control.dt, control.time);
+            let drifted = drifted_solid(n, finished, next_half, next);
             solid_state[SAVED + n] = solid_state[NOW + n];
-            solid_state[NEW + n] = kicked_solid(n);
-        }
-    }
-    storageBarrier();
-    workgroupBarrier();
-    if local == 0u {
-        control.acceleration_bits = max(control.acceleration_bits, atomicLoad(&largest));
-        advance_clock();
-    }
-    storageBarrier();
-    workgroupBarrier();
-    if control.finishing == 1u {
-        let next = add_ticks(control.time, ticks_of(control.drift_half));
-        for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
-            let finished = drifted_solid(n, solid_state[NEW + n], 0.5 * control.last_dt, control.time);
-            let drifted = drifted_solid(n, finished, control.drift_half, next);
+            solid_state[NEW + n] = kicked;
             solid_state[NOW + n] = drifted;
-            atomicMax(&finish_most, solid_way(n, solid_state[NEW + n], finished));
-            if control.drift_half > 0.0 {
+            atomicMax(&finish_most, solid_way(n, kicked, finished));
+            if next_half > 0.0 {
                 atomicMax(&drift_most, solid_way(n, finished, drifted));
             }
         }
     }
     workgroupBarrier();
-    if local == 0u && control.finishing == 1u {
-        control.moved_finish = atomicLoad(&finish_most);
-        control.moved_drift = atomicLoad(&drift_most);
+    if local == 0u && control.stepping == 1u {
+        control.acceleration_bits = max(control.acceleration_bits, atomicLoad(&largest));
+        control.moved_finish[1u - control.last_side] = atomicLoad(&finish_most);
+        control.moved_drift[1u - control.last_side] = atomicLoad(&drift_most);
     }
 }

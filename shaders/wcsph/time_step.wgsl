@@ -1,4 +1,4 @@
-// The step's time and the length of the next one, where no solid moves: otherwise pass solids does it.
+// The step's time and the length of the next one, where there are no solids: otherwise a thread of pass walls does it.
 //
 // in:  control, its maxima
 // out: control

@@ -1,14 +1,18 @@
 // What solid particles see of the fluid near them (Adami, Hu, Adams 2012): pressure, kept as the excess density that it
 // stands for, and for the laminar viscosity the mirrored velocity.
+// The first workgroup does the clock instead, which nobody here reads.
 //
 // in:  coordinate, motion (of the fluid), cell_start, neighbor_list, solid_slot, solid_state, local_place, control
-// out: motion (of solids)
+// out: motion (of solids), control
 @group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
-@group(0) @binding(BINDING_control) var<storage, read> control: Control;
+
+fn reading_start() -> u32 {
+    return side_start(control.side);
+}
 
 struct Own {
     unused: u32,
@@ -26,7 +30,7 @@ fn added(a: Sums, b: Sums) -> Sums {
 }
 
 fn way_since_sort() -> u32 {
-    return control.travelled + control.moved_finish + control.moved_drift - control.sorted_at;
+    return control.travelled + control.moved_finish[control.side] + control.moved_drift[control.side] - control.sorted_at;
 }
 
 fn add_itself(sums: ptr<function, Sums>, own: Own) {
@@ -63,13 +67,13 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
 
 fn share_of(particle: u32, lane: u32) -> Sums {
     let i = solid_slot[particle];
-    return sum_pairs(i, place_of(coordinate[side_start(control.side) + i]), Own(0u), lane);
+    return sum_pairs(i, place_of(coordinate[reading_start() + i]), Own(0u), lane);
 }
 
 // By the first thread of the solid particle, the workgroup's thread `local`.
 fn see_fluid(particle: u32, local: u32) {
     let i = solid_slot[particle];
-    let start = side_start(control.side);
+    let start = reading_start();
     let own = coordinate[start + i];
     let sums = all_sums(i, place_of(own), Own(0u), local);
     let wall = wall_motion(u32(own.w) - GROUP_SOLID, particle);
@@ -89,7 +93,13 @@ fn see_fluid(particle: u32, local: u32) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
-    let thread = thread_index(workgroup, workgroups, local);
+    if workgroup_index(workgroup, workgroups) == 0u {
+        if local == 0u {
+            advance_clock();
+        }
+        return;
+    }
+    let thread = thread_index(workgroup, workgroups, local) - WORKGROUP_SIZE;
     let particle = thread / LANES;
     let runs = control.running == 1u && is_well(control.bad_step, control.restored);
     let works = particle < constants.particle_count - constants.first_solid && runs;

@@ -35,16 +35,17 @@ static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     weir_record(recorder, WEIR_WCSPH_NEIGHBORS);
 }
 
-// The first step's length and the first half of its move; later steps find theirs done by finish.
+// The first step's length and the first half of its move; later steps find theirs done where the one before finished.
 static void record_begin(const WeirRecorder *recorder)
 {
     weir_record(recorder, WEIR_WCSPH_BEGIN);
     weir_record(recorder, WEIR_WCSPH_DRIFT);
 }
 
+// With the clock, which walls does on the way.
 static void record_walls(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
 {
-    if (solver->traits.solid_count > 0) weir_record(recorder, WEIR_WCSPH_WALLS);
+    weir_record(recorder, solver->traits.solid_count > 0 ? WEIR_WCSPH_WALLS : WEIR_WCSPH_TIME_STEP);
 }
 
 static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
@@ -56,10 +57,8 @@ static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     if (solver->traits.moving_solids) {
         weir_record(recorder, WEIR_WCSPH_SOLIDS);
         weir_record(recorder, WEIR_WCSPH_KICK);
-    } else {
-        weir_record(recorder, WEIR_WCSPH_TIME_STEP);
+        weir_record(recorder, WEIR_WCSPH_FINISH);
     }
-    weir_record(recorder, WEIR_WCSPH_FINISH);
 }
 
 void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how)
@@ -85,7 +84,7 @@ static uint32_t steps_per_submit(const WeirGpuSolver *solver)
     double count = solver->constants.particle_count;
     double ratio = parameters->support_radius / parameters->particle_spacing;
     double neighbors = solver->constants.dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.14 * ratio * ratio;
-    return weir_steps_per_submit(solver, 2.0 * count * fmin(count, 3.0 * neighbors));
+    return weir_steps_per_submit(solver, count * fmin(count, 3.0 * neighbors));
 }
 
 // Up to `steps` steps in one submit, the first of them measured if wished. `first`, `last`: of the batch that the caller
@@ -177,12 +176,13 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
         return weir_fail(&base->message, WEIR_ERROR_INPUT,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          common->constants.cell_count, constants->cell_count);
-    uint32_t lanes = solver->traits.lanes, count = constants->particle_count;
-    uint32_t solid_particles = count - constants->first_solid;
-    common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(lanes * count);
-    common->passes.groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(lanes * solid_particles);
+    const WeirWcsphTraits *traits = &solver->traits;
+    uint32_t count = constants->particle_count, solid_particles = count - constants->first_solid;
+    common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * count);
+    common->passes.groups[WEIR_ITEMS_SOLID_SHARES] =
+        weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
     char settings[WEIR_SETTINGS_LENGTH];
-    uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, &solver->traits, settings);
+    uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, traits, settings);
     status = weir_passes_prepare(&common->passes, settings, needed, common->report, &base->message);
     if (status != WEIR_OK) return status;
     weir_gpu_solver_configure(common, parameters, constants);

@@ -2,9 +2,11 @@
 //
 //   state --count, scan--> cell_start --scatter--> working copy --neighbors--> neighbor_list
 //     ^                                                  |
-//     |                              walls, forces (with kick), solid_forces, solids | time_step, kick
-//     |                                                  v
-//     +-- finish (with the next step's drift) -- kicked
+//     |                                  walls (with time_step), forces (with kick)
+//     |                                                  |
+//     +-- finish (with the next step's drift) -----------+
+//
+// finish is a part of forces, or, where solids move, a pass of its own after solid_forces, solids and kick.
 //
 // `coordinate` and `motion` hold three copies of the particles: the state between calls, and two working copies, one
 // read and one written in turn by the steps of a batch. Particles keep their slots until the device finds that lists and
@@ -101,19 +103,18 @@ enum { WEIR_VACANCY_BLOCK = 128 };
 // `struct Control` in shaders/common/state.wgsl. Times: low and high word of a count of 2^-42 s.
 typedef struct WeirWcsphControl {
     uint32_t until[2];
-    uint32_t steps_left, running, finishing, steps;
-    uint32_t time[2];
-    float dt, free_dt, last_dt, drift_half, max_speed;
+    uint32_t steps_left, running, stepping, steps;
+    uint32_t time[2], began[2];
+    float dt, next_dt, free_dt, max_speed;
     uint32_t speed_bits, acceleration_bits, error_bits;
     uint32_t bad_particles, bad_step, bad_id; // bad_step UINT32_MAX: none
-    uint32_t starting;
     int32_t bad_place[4];
-    uint32_t drained, lost, emitted, restored;
+    uint32_t starting, drained, lost, emitted, restored;
     uint32_t side, last_side, sorting, stale;
-    uint32_t travelled, moved_finish, moved_drift, sorted_at, allowance, next_allowance;
+    uint32_t travelled, reached, sorted_at, moved_finish[2], moved_drift[2], allowance, next_allowance;
     uint32_t next_due[2];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 160, "the layout of the shaders' struct");
+static_assert(sizeof(WeirWcsphControl) == 176, "the layout of the shaders' struct");
 
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");

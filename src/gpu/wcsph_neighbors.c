@@ -4,8 +4,10 @@
 #include <math.h>
 
 // What suits which fluid was measured on an H100 (docs/performance.md, tries).
-// Shares of the support radius. A list reaches two allowances beyond the support.
-static const double least_allowance = 0.03, most_allowance = 0.08, walk_allowance = 0.02;
+// Shares of the support radius. A list reaches two allowances beyond the support. Where chances to sort are seldom it is to
+// last for four uses: three steps of 0.027 in flow at Mach 0.1.
+static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowance = 0.1,
+                    walk_allowance = 0.02;
 // Neighbours that a list has room for, in those of the lattice: fluid may be squeezed, and disordered.
 static const double list_margin = 1.25;
 // Longer lists cannot be meant: 8 entries each.
@@ -36,9 +38,9 @@ static bool is_short(const WeirConstants *constants, double reach)
 
 // 0: none.
 static uint32_t chunks_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
-                                double pairs, uint64_t most_bytes)
+                                double allowance, double pairs, uint64_t most_bytes)
 {
-    double reach = 1.0 + 2.0 * most_allowance;
+    double reach = 1.0 + 2.0 * allowance;
     double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
     double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
     if (!(wanted <= most_chunks)) return 0; // what is not a number too
@@ -79,9 +81,13 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
-    traits->list_chunks = chunks_of_lists(parameters, constants, pairs, most_bytes);
+    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED ||
+                 traits->emitter_count > 0;
+    traits->sort_interval = every ? 1 : 4;
+    double least = least_allowance, most = every ? most_allowance : seldom_allowance;
+    traits->list_chunks = chunks_of_lists(parameters, constants, most, pairs, most_bytes);
     bool lists = traits->list_chunks > 0;
-    double least = lists ? least_allowance : walk_allowance, most = lists ? most_allowance : walk_allowance;
+    if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);
     // One row on either side holds all of a list, or what a walk wants while the order lasts.
@@ -89,9 +95,6 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;
     if (!lists && walks_half_rows(parameters, constants->dimension))
         traits->row_height = (traits->row_height + 1) / 2;
-    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED ||
-                 traits->emitter_count > 0;
-    traits->sort_interval = every ? 1 : 4;
 }
 
 static uint32_t rows_of(uint32_t rows, uint32_t shift, uint32_t height)

@@ -14,6 +14,7 @@ SHADER(common_cells)
 SHADER(common_smoothing)
 SHADER(common_liquid)
 SHADER(common_drift)
+SHADER(common_finish)
 SHADER(common_clock)
 SHADER(common_bodies)
 SHADER(common_emitters)
@@ -57,19 +58,22 @@ static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
 #define BIT(name) (1u << WEIR_WCSPH_##name)
 enum { PARTICLES = BIT(coordinate) | BIT(motion) };
 enum { SEARCH = BIT(cell_start) | BIT(neighbor_list) };
-enum { FORCES_READS = PARTICLES | SEARCH | BIT(solid_state) };
-enum { FORCES_WRITES = BIT(kicked) | BIT(control) };
+enum { FORCES_READS = SEARCH | BIT(solid_state) | BIT(id) };
+enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(control) };
 enum { SUM_READS = BIT(kicked) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
 
 static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
 static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
                                           weir_wgsl_common_bodies, NULL};
 static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
+static const char *const finish_part[] = {weir_wgsl_common_drift, weir_wgsl_common_finish, NULL};
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
 static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists, NULL};
-static const char *const pairs_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors, NULL};
-static const char *const forces_part[] = {weir_wgsl_common_lists, weir_wgsl_common_neighbors,
-                                          weir_wgsl_common_contact, NULL};
+static const char *const walls_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
+                                         weir_wgsl_common_lists, weir_wgsl_common_neighbors, NULL};
+static const char *const forces_part[] = {weir_wgsl_common_lists,   weir_wgsl_common_neighbors,
+                                          weir_wgsl_common_contact, weir_wgsl_common_drift,
+                                          weir_wgsl_common_finish,  NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
 #define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name
@@ -98,10 +102,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                               BIT(coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(control),
                               BIT(neighbor_list) | BIT(solid_slot) | BIT(id) | BIT(cell_link),
                               WEIR_ITEMS_SORTING},
-    [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, pairs_part,
-                          BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
-                              BIT(control),
-                          BIT(motion), WEIR_ITEMS_SOLID_SHARES},
+    [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, walls_part,
+                          BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place),
+                          BIT(motion) | BIT(control), WEIR_ITEMS_SOLID_SHARES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", forces_part, FORCES_READS,
                            FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
@@ -113,7 +116,7 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                          BIT(coordinate) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                              BIT(control),
                          BIT(kicked), WEIR_ITEMS_SOLIDS},
-    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, drift_part, BIT(id) | BIT(kicked), PARTICLES | BIT(control),
+    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(id) | BIT(kicked), PARTICLES | BIT(control),
                            WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
@@ -231,12 +234,12 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
 #undef APPEND
 #define PASS(name) (1u << WEIR_WCSPH_##name)
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
-                      PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(FINISH) | PASS(BEGIN_READ) |
-                      PASS(FORCES_READ) | PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH);
+                      PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(BEGIN_READ) | PASS(FORCES_READ) |
+                      PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
-    if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);
+    needed |= traits->solid_count > 0 ? PASS(WALLS) | PASS(SOLID_FORCES_READ) : PASS(TIME_STEP);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);
-    needed |= traits->moving_solids ? PASS(SOLIDS) | PASS(KICK) : PASS(TIME_STEP);
+    if (traits->moving_solids) needed |= PASS(SOLIDS) | PASS(KICK) | PASS(FINISH);
 #undef PASS
     return needed;
 }

@@ -36,7 +36,7 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
     health->steps = solver->steps_before + seen->steps;
     health->time = seconds_of(seen->time);
     health->time_step = seen->free_dt;
-    health->max_speed = seen->max_speed;
+    health->max_speed = float_of(seen->speed_bits);
     health->max_density_error = float_of(seen->error_bits);
     health->drained_particles = seen->drained;
     health->lost_particles = seen->lost;
@@ -231,7 +231,7 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, const void *copy, We
     if (bad) {
         // The sorted particles are half a step before the end of the bad one.
         --state->step;
-        state->time -= 0.5 * (double)view.control->last_dt;
+        state->time -= 0.5 * (double)view.control->dt;
     }
     return WEIR_OK;
 }

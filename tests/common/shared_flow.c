@@ -96,6 +96,29 @@ static void run_until_ends_exactly(const WeirBackend *backend)
     weir_scene_destroy(scene);
 }
 
+// The next step's length is known one step ahead (docs/wcsph.md, "Time step"): what a step finds counts for the next but one.
+// Fluid that begins to fall, as fast as sound after one step.
+static void a_step_is_chosen_one_step_ahead(const WeirBackend *backend)
+{
+    WeirScene *scene = tank(2, 1, 1, 0.1);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", "xy"), WEIR_OK);
+    weir_test_gravity(scene, 0, 0);
+    weir_test_set(scene, "expected_speed", 1);
+    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 1, 1}, NULL), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, backend, 0);
+    weir_test_step(sim, 3);
+    double h = 0.2, pull = 1000, before = 0.6 * h / 10, after = 0.6 * h / (10 + pull * before);
+    CHECK_NEAR(weir_sim_clock(sim).time_step, before, 1e-3 * before);
+    CHECK_SIM(sim, weir_sim_set_parameter(sim, "gravity", (double[]){0, -pull, 0}, 3), WEIR_OK);
+    weir_test_step(sim, 1);
+    CHECK_NEAR(weir_sim_clock(sim).time_step, before, 1e-3 * before);
+    weir_test_step(sim, 1);
+    CHECK_NEAR(weir_sim_clock(sim).time_step, after, 1e-3 * after);
+    assert_true(after < 0.8 * before);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 // Five times the stable step: found within 100 steps, with step, particle and place; the last good state stays readable.
 static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *backend)
 {
@@ -425,6 +448,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_far_column_falls_as_the_near_one),
     WEIR_SHARED_TEST(periodic_fluid_moves_as_a_whole),
     WEIR_SHARED_TEST(run_until_ends_exactly),
+    WEIR_SHARED_TEST(a_step_is_chosen_one_step_ahead),
     WEIR_SHARED_TEST(a_blow_up_is_found_and_the_last_good_state_kept),
     WEIR_SHARED_TEST(a_slow_speed_of_sound_is_told),
     WEIR_SHARED_TEST(walls_hold_a_splash),

@@ -73,7 +73,7 @@ static uint64_t run(const char *name, Course course)
     return hash;
 }
 
-static const char *const lively[] = {"piston_2d", "bodies_2d", "body_3d", "taps_2d", "periodic_3d"};
+static const char *const lively[] = {"piston_2d", "bodies_2d", "body_3d", "taps_2d", "periodic_3d", "dam_2d"};
 enum { LIVELY = sizeof lively / sizeof lively[0] };
 
 // The same bits run to run, however the steps are cut into calls, and whether somebody reads in between.

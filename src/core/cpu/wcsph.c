@@ -1,8 +1,8 @@
 // The method `wcsph` on the CPU: the reference that judges the GPU. docs/wcsph.md has the step and its sources.
 //
-//   state --drift--> moved --count, scan, scatter--> sorted --walls, forces, solids--> rates
-//     ^                                                                               |
-//     +------------------------ kick, finish, time_step ------------------------------+
+//   state --time_step, drift--> moved --count, scan, scatter--> sorted --walls, forces, solids--> rates
+//     ^                                                                                            |
+//     +--------------------------------------- kick, finish ---------------------------------------+
 //
 // Every sum has one order and every choice depends on values alone, so the bits depend on neither threads nor
 // compiler.
@@ -187,15 +187,15 @@ static void evaluate(WeirWcsph *solver)
 
 static void take_step(WeirWcsph *solver)
 {
+    timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step); // the next one's
     timed(solver, WEIR_WCSPH_DRIFT, weir_wcsph_drift);
     evaluate(solver);
     timed(solver, WEIR_WCSPH_SOLIDS, weir_wcsph_solids);
     timed(solver, WEIR_WCSPH_KICK, weir_wcsph_kick);
     timed(solver, WEIR_WCSPH_FINISH, weir_wcsph_finish);
-    timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step);
 }
 
-// The first time step follows from the accelerations and speeds at the start.
+// The first two time steps follow from the accelerations and speeds at the start.
 static void choose_first_step(WeirWcsph *solver)
 {
     evaluate(solver);
@@ -214,6 +214,7 @@ static void choose_first_step(WeirWcsph *solver)
                         fabsf(solver->sorted.excess[i]) / solver->parameters.rest_density);
         ++solver->fluid_in_step;
     }
+    weir_wcsph_take_maxima(solver);
     weir_wcsph_time_step(solver);
 }
 

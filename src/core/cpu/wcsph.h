@@ -122,8 +122,10 @@ void weir_wcsph_drift(WeirWcsph *solver);
 void weir_wcsph_kick(WeirWcsph *solver);
 void weir_wcsph_finish(WeirWcsph *solver);
 void weir_wcsph_time_step(WeirWcsph *solver);
-// Largest values of the sorted particles as `time_step` needs them; called by finish and at the start.
+// Largest values of the sorted particles as `time_step` needs them: cleared, and taken when all are noted; called by finish
+// and at the start.
 void weir_wcsph_begin_maxima(WeirWcsph *solver);
+void weir_wcsph_take_maxima(WeirWcsph *solver);
 
 // ---- wcsph_solids.c ----
 // Velocity of every solid's particles among `particles`, `surface`: with the surface's own.

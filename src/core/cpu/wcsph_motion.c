@@ -310,6 +310,22 @@ void weir_wcsph_begin_maxima(WeirWcsph *solver)
     solver->first_bad_id = UINT32_MAX;
 }
 
+// The largest values of the step that is over, or of a new state.
+void weir_wcsph_take_maxima(WeirWcsph *solver)
+{
+    WeirWcsphClock *clock = &solver->clock;
+    clock->max_speed = weir_float_of(solver->speed_bits);
+    clock->max_acceleration = weir_float_of(solver->acceleration_bits);
+    clock->max_density_error = weir_float_of(solver->density_bits);
+    clock->fluid_particles = solver->fluid_in_step;
+    for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
+        if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
+        const float *a = solver->solids[n].acceleration;
+        clock->max_acceleration =
+            fmaxf(clock->max_acceleration, sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
+    }
+}
+
 // The sorted particles become the state.
 void weir_wcsph_finish(WeirWcsph *solver)
 {
@@ -323,6 +339,7 @@ void weir_wcsph_finish(WeirWcsph *solver)
     WeirWcsphParticles sorted = solver->sorted;
     solver->sorted = solver->state;
     solver->state = sorted;
+    weir_wcsph_take_maxima(solver);
 }
 
 // ---- time_step ----
@@ -332,16 +349,6 @@ void weir_wcsph_time_step(WeirWcsph *solver)
     const WeirParameters *parameters = &solver->parameters;
     const WeirConstants *constants = &solver->constants;
     WeirWcsphClock *clock = &solver->clock;
-    clock->max_speed = weir_float_of(solver->speed_bits);
-    clock->max_acceleration = weir_float_of(solver->acceleration_bits);
-    clock->max_density_error = weir_float_of(solver->density_bits);
-    clock->fluid_particles = solver->fluid_in_step;
-    for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
-        if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
-        const float *a = solver->solids[n].acceleration;
-        clock->max_acceleration =
-            fmaxf(clock->max_acceleration, sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
-    }
     if (parameters->stepping == WEIR_STEPPING_FIXED) {
         clock->time_step = parameters->time_step;
         return;

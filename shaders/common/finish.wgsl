@@ -1,0 +1,121 @@
+// The second half of a step's move with health (weir_wcsph_finish): rho += dt/2 drho, x += dt/2 v + dt u; and the first half of the
+// next step's move, if there is one. Used by forces where no solid moves, and by pass finish; after common/drift.wgsl.
+// One thread of a workgroup calls clear_finish() before, and publish_finish() after all others are through.
+@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
+@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
+@group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+
+// Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
+const LEAST_DENSITY = 0.8;
+
+// The workgroup's largest density error, as bits, and ways.
+var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero them
+var<workgroup> finish_most: atomic<u32>;
+var<workgroup> drift_most: atomic<u32>;
+
+fn clear_finish() {
+    atomicStore(&error_most, 0u);
+    atomicStore(&finish_most, 0u);
+    atomicStore(&drift_most, 0u);
+}
+
+fn publish_finish() {
+    if atomicLoad(&finish_most) > 0u {
+        atomicMax(&control.error_bits, atomicLoad(&error_most));
+        atomicMax(&control.moved_finish[1u - control.last_side], atomicLoad(&finish_most));
+        atomicMax(&control.moved_drift[1u - control.last_side], atomicLoad(&drift_most));
+    }
+}
+
+fn take_density(excess: f32) {
+    let error = bitcast<u32>(abs(excess) / parameters.rest_density);
+    if error > atomicLoad(&error_most) {
+        atomicMax(&error_most, error);
+    }
+}
+
+fn take_finish(way: u32) {
+    if way > atomicLoad(&finish_most) {
+        atomicMax(&finish_most, way);
+    }
+}
+
+fn take_drift(way: u32) {
+    if way > atomicLoad(&drift_most) {
+        atomicMax(&drift_most, way);
+    }
+}
+
+fn check_health(i: u32, speed_squared: f32, rate: f32) {
+    let limit = constants.speed_limit;
+    if is_finite(speed_squared) && is_finite(rate) && speed_squared <= limit * limit {
+        return;
+    }
+    atomicAdd(&control.bad_particles, 1u);
+    atomicMin(&control.bad_step, control.steps);
+    atomicMin(&control.bad_id, id[i]);
+    // The next step sees it: what this one began with, half a step ago, is the last good state, and nothing may run over it.
+}
+
+// The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
+fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
+    let origin = vector_of(constants.origin);
+    let depth = Vector(parameters.particle_spacing);
+    let low = (vector_of(constants.domain_min) - depth - origin) * constants.inverse_quantum;
+    let high = (vector_of(constants.domain_max) + depth - origin) * constants.inverse_quantum;
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        if has_wall(axis, 0u) && f32((*place)[axis]) < low[axis] {
+            (*place)[axis] = i32(low[axis]);
+            (*velocity)[axis] = max((*velocity)[axis], 0.0);
+        }
+        if has_wall(axis, 1u) && f32((*place)[axis]) > high[axis] {
+            (*place)[axis] = i32(high[axis]);
+            (*velocity)[axis] = min((*velocity)[axis], 0.0);
+        }
+    }
+}
+
+// `kicked`: new velocity, density in the middle of the step. `shift`: shifting velocity, drho/dt.
+fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
+    var own_motion = kicked_motion;
+    let rate = shift.w;
+    var velocity = vector_of(own_motion);
+    let last_half = 0.5 * control.dt;
+    check_health(i, dot(velocity, velocity), rate);
+    own_motion.w = max(own_motion.w + last_half * rate, (LEAST_DENSITY - 1.0) * parameters.rest_density);
+    take_density(own_motion.w);
+    var way = last_half * velocity;
+    if SHIFTING && u32(own.w) == GROUP_FLUID {
+        way += control.dt * vector_of(shift);
+    }
+    var place = place_of(own) + quanta_of(way);
+    if u32(own.w) == GROUP_FLUID {
+        seal(&place, &velocity);
+        own_motion = vec4f(wide(velocity), own_motion.w);
+    }
+    take_finish(way_length(place - place_of(own)));
+    let finished = vec4i(wide_place(place), own.w);
+    let half = 0.5 * control.next_dt;
+    if half == 0.0 {
+        leave(i, finished, own_motion);
+        return;
+    }
+    own_motion.w += half * rate;
+    let to = drifted(finished, velocity, half);
+    if to.fate == FATE_DRAINED {
+        atomicAdd(&control.drained, 1u);
+    } else if to.fate == FATE_LOST {
+        atomicAdd(&control.lost, 1u);
+    }
+    take_drift(way_length(place_of(to.coordinate) - place));
+    leave(i, to.coordinate, own_motion);
+}
+
+// Where the next step, or whoever comes after this one, finds it.
+fn leave(i: u32, at: vec4i, own_motion: vec4f) {
+    let sorts = control.sorting == 1u || control.next_dt == 0.0;
+    let target_slot = select(side_start(1u - control.last_side), 0u, sorts) + i;
+    coordinate[target_slot] = at;
+    motion[target_slot] = own_motion;
+}
