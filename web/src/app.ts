@@ -25,7 +25,7 @@ export type AppOptions = {
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
 const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
 // What the C solver, on one core, still moves at a rate that one likes to watch.
-const cpuParticles = { 2: 8000, 3: 5000 } as const;
+const cpuParticles = { 2: 5000, 3: 4000 } as const;
 const panelWidth = 304; // CSS pixels
 const headingWidth = 330;
 const small = matchMedia('(max-width: 760px), (max-height: 520px)'); // as in style.css
@@ -418,7 +418,7 @@ export class App implements PanelHost {
     this.#footer = { size, height: Math.max(element('footer').offsetHeight, this.#footer.size === size ? this.#footer.height : 0) };
     const footer = this.#footer.height;
     document.body.style.setProperty('--footer', `${footer}px`);
-    const insets = { left: 20, right, top: narrow ? 52 : 22, bottom: footer + 30 };
+    const insets = { left: 20, right, top: narrow ? 62 : 22, bottom: footer + 30 };
     camera.fit(insets);
     if (narrow) return;
     // A wide domain goes below the heading's words, a tall one beside them.

@@ -120,11 +120,13 @@ class ValidationPage {
       const name = button.dataset['case'] ?? '';
       const verdict = this.#verdicts.get(name);
       const here = name === this.#chosen.name;
+      if (here && button.getAttribute('aria-current') !== 'true') reveal(button);
       button.setAttribute('aria-current', String(here));
       const dot = button.querySelector('i') as HTMLElement;
       dot.className = here && this.state.running ? 'running' : verdict === undefined ? '' : verdict ? 'passed' : 'failed';
     }
-    element<HTMLButtonElement>('stop').disabled = !this.state.running;
+    element('run').hidden = this.state.running;
+    element('stop').hidden = !this.state.running;
   }
 
   #say(text: string): void {
@@ -245,6 +247,14 @@ class ValidationPage {
     element('verdict').replaceChildren(gateTable(gates));
     this.#mark();
   }
+}
+
+// Scrolls the list so that the button is seen; scrollIntoView() would move the page too.
+function reveal(button: HTMLElement): void {
+  const list = element('cases');
+  const [outer, inner] = [list.getBoundingClientRect(), button.getBoundingClientRect()];
+  if (inner.top < outer.top || inner.bottom > outer.bottom) list.scrollTop += inner.top - outer.top - outer.height / 2;
+  if (inner.left < outer.left || inner.right > outer.right) list.scrollLeft += inner.left - outer.left - 16;
 }
 
 // Measured curves in colours, each reference in white: points where it has few, else dashed.

@@ -246,7 +246,8 @@ for (const kind of browsers) {
         await tab.frames(1);
         await tab.until('probes', () => document.querySelectorAll('#probes canvas').length === 3);
         const { boxes, domain } = await tab.evaluate(() => ({
-          boxes: ['#heading h1', '#links', '#panel', '#plot', '#probes canvas:nth-child(1)', '#probes canvas:nth-child(2)', '#probes canvas:nth-child(3)', '#status', '#legend']
+          boxes: [...(innerWidth > 760 ? ['#heading h1', '#links'] : ['#wordmark', '#title']),
+            '#panel', '#plot', '#probes canvas:nth-child(1)', '#probes canvas:nth-child(2)', '#probes canvas:nth-child(3)', '#status', '#legend']
             .map((name) => ({ name, ...document.querySelector(name).getBoundingClientRect().toJSON() })).filter((box) => box.width > 0),
           domain: [0, 1].flatMap((x) => [0, 1].flatMap((y) => [0, 1].map((z) => window.weir.camera.toClient([3.22 * x, y, z])))),
         }));
@@ -260,7 +261,7 @@ for (const kind of browsers) {
         const panel = boxes.find(({ name }) => name === '#panel');
         if (width > 760) assert.ok(panel.height >= 150, `${width} x ${height}: the panel has ${panel.height} pixels`);
         // The corners of the domain stay clear of the heading and the side.
-        const { right, bottom } = boxes.find(({ name }) => name === (width > 760 ? '#links' : '#heading h1'));
+        const { right, bottom } = boxes.find(({ name }) => name === (width > 760 ? '#links' : '#title'));
         for (const [x, y] of domain) {
           assert.ok(!(x < right && y < bottom), `${width} x ${height}: a corner of the domain at ${x}, ${y}`);
           assert.ok(width < 760 || x < panel.left, `${width} x ${height}: a corner of the domain at ${x}, under the panel`);
@@ -398,6 +399,18 @@ for (const kind of browsers) {
       await tab.page.click('#stop');
       assert.equal(await tab.evaluate(() => window.validation.running), false);
       await tab.close();
+    });
+
+    test('validation.html shows the chosen case in its list', async () => {
+      for (const [width, height] of [[1000, 640], [390, 844]]) {
+        const tab = await Tab.open(browser, `${server.url}validation.html?case=solitary_wave`, { size: { width, height, deviceScaleFactor: 1 } });
+        await tab.until('ready', () => !document.getElementById('run').disabled);
+        const { left, top, right, bottom } = await tab.evaluate(() => document.querySelector('[aria-current="true"]').getBoundingClientRect().toJSON());
+        assert.ok(left >= 0 && top >= 0 && right <= width && bottom <= height, `${width} x ${height}: the case's button lies at ${left} to ${right}, ${top} to ${bottom}`);
+        const scrolled = await tab.evaluate(() => scrollX + scrollY);
+        assert.equal(scrolled, 0, 'the page itself stays where it was');
+        await tab.close();
+      }
     });
 
     test('validation.html measures on WebGPU too', async () => {
