@@ -6,6 +6,10 @@ import type { ParameterInfo, Scene, Weir } from './weir.ts';
 // particles: of fluid, without walls and bodies.
 export type Derived = { particles: number; stableTimeStep: number; warning: string };
 
+type Made = { document: SceneDocument; particles: number; spacing: number };
+
+const manyParticles = 30_000; // so fine that stretching a lattice changes little
+
 export class SceneStore {
   document: SceneDocument;
   scene: Scene;
@@ -44,47 +48,48 @@ export class SceneStore {
   }
 
   // The document with about `count` particles: lengths of the discretisation and the time step scale together, so
-  // neighbours per particle and stability stay what they are. Particles fill the fluid's volume exactly as before: the
-  // lattice is stretched to whole numbers along each side, which would squeeze them by some percent.
+  // neighbours per particle and stability stay what they are. The engine stretches the lattice of each box to whole
+  // numbers along each side, which may squeeze or thin the fluid by several percent: a spacing near by may fit better.
   withParticles(count: number): SceneDocument {
     if (!Number.isFinite(count) || count < 1) throw new Error(`particles: ${count}; must be 1 or more`);
-    return this.#filling(this.#about(count));
-  }
-
-  // With the spacing that the volume of the present document's fluid gives for the number of particles in `next`.
-  #filling(next: SceneDocument): SceneDocument {
-    const { dimension } = this.scene;
-    const spacing = this.scene.parameter('particle_spacing')[0] ?? 0;
-    let document = next;
-    for (let round = 0; round < 4; round++) {
-      const scene = this.#weir.loadScene(document);
-      const factor = (spacing * (this.derived.particles / scene.fluidCount) ** (1 / dimension)) / (scene.parameter('particle_spacing')[0] ?? 0);
-      scene.destroy();
-      if (!Number.isFinite(factor) || Math.abs(factor - 1) < 1e-5) break;
-      document = this.#scaled(document, factor);
+    const about = this.#about(count);
+    if (about.particles === 0 || count > manyParticles) return about.document;
+    let best = about;
+    for (const factor of [0.99, 1.01, 0.98, 1.02, 0.97, 1.03, 0.96, 1.04]) {
+      const other = this.#made(this.#scaled(about.document, factor));
+      if (this.#misfit(other, count) < this.#misfit(best, count)) best = other;
     }
-    return document;
+    const exact = this.#made(this.#scaled(best.document, this.#volume(best) ** (-1 / this.scene.dimension)));
+    return this.#misfit(exact, count) < this.#misfit(best, count) ? exact.document : best.document;
   }
 
-  #about(count: number): SceneDocument {
-    let document = this.document;
-    let particles = this.derived.particles;
+  #made(document: SceneDocument): Made {
+    const scene = this.#weir.loadScene(document);
+    const made = { document, particles: scene.fluidCount, spacing: scene.parameter('particle_spacing')[0] ?? 0 };
+    scene.destroy();
+    return made;
+  }
+
+  // Of its particles, relative to those of the present document.
+  #volume({ particles, spacing }: Made): number {
+    const now = this.scene.parameter('particle_spacing')[0] ?? 0;
+    return (particles / this.derived.particles) * (spacing / now) ** this.scene.dimension;
+  }
+
+  #misfit(made: Made, count: number): number {
+    return Math.abs(this.#volume(made) - 1) + 0.1 * Math.abs(made.particles / count - 1);
+  }
+
+  #about(count: number): Made {
+    let best: Made = { document: this.document, particles: this.derived.particles, spacing: this.scene.parameter('particle_spacing')[0] ?? 0 };
     // The lattice does not fill a piece of fluid exactly: the second round mends most of it.
-    for (let round = 0; round < 3 && particles > 0 && Math.abs(particles / count - 1) > 0.005; round++) {
-      const next = this.#scaled(document, (particles / count) ** (1 / this.scene.dimension));
-      const scene = this.#weir.loadScene(next);
-      const made = scene.fluidCount;
-      if (made === 0) {
-        // Let the engine say why, through check().
-        scene.destroy();
-        return next;
-      }
-      scene.destroy();
-      if (round > 0 && Math.abs(made / count - 1) >= Math.abs(particles / count - 1)) break;
-      document = next;
-      particles = made;
+    for (let round = 0; round < 3 && best.particles > 0 && Math.abs(best.particles / count - 1) > 0.005; round++) {
+      const next = this.#made(this.#scaled(best.document, (best.particles / count) ** (1 / this.scene.dimension)));
+      if (next.particles === 0) return next; // let the engine say why, through check()
+      if (round > 0 && Math.abs(next.particles / count - 1) >= Math.abs(best.particles / count - 1)) break;
+      best = next;
     }
-    return document;
+    return best;
   }
 
   #scaled(document: SceneDocument, factor: number): SceneDocument {
