@@ -144,7 +144,7 @@ export class Panel {
     const usual = host.parameter(info.name)[0] ?? info.default[0] ?? 1;
     const range = sliderRange(usual > 0 ? usual : (info.default[0] ?? 1), info.minimum, info.maximum);
     return this.#addNumber(folder, label, range, () => host.parameter(info.name)[0] ?? 0,
-      (value) => host.setParameter(info.name, value), help);
+      (value) => host.setParameter(info.name, value), help, undefined, /\b0( \([^)]*\))?: (?!none|clamps)/.test(info.help) ? 'auto' : '');
   }
 
   #addList<T extends string | number>(
@@ -166,10 +166,14 @@ export class Panel {
 
   #addNumber(
     folder: FolderApi, label: string, range: SliderRange, get: () => number, set: (value: number) => boolean, help: string,
-    most?: () => number,
+    most?: () => number, zero = '', // what 0 is called
   ): BindingApi {
     const state = { value: get() };
-    const format = (value: number): string => String(Number.isInteger(value) ? value : Number(value.toPrecision(4)));
+    const format = (value: number): string => {
+      if (value === 0 && zero) return zero;
+      const text = String(Number.isInteger(value) ? value : Number(value.toPrecision(4)));
+      return text.length > 8 ? value.toExponential(2) : text;
+    };
     const binding = folder.addBinding(state, 'value', { label, format, pointerScale: Math.max(state.value, range.low) / 100 });
     binding.element.title = help;
     binding.element.querySelector('input[type="text"]')?.setAttribute('aria-label', label);
