@@ -344,19 +344,19 @@ for (const kind of browsers) {
         setUp: () => Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined, configurable: true }),
       });
       await tab.engine('worker');
+      assert.match(await tab.evaluate(() => document.getElementById('notes').innerText), /no WebGPU.*C solver/s);
       await tab.frames(2);
       const first = await tab.pixels();
       await tab.until('0.1 simulated seconds', () => window.weir.engine.stats.time > 0.1);
       assert.ok(changedPixels(first, await tab.pixels()) > 100, 'pixels change');
-      assert.match(await tab.evaluate(() => document.getElementById('notes').innerText), /no WebGPU.*C solver/s);
-      await tab.until('status line', () => /C on the CPU/.test(document.getElementById('status').innerText));
+      await tab.until('the reason in the status line', () =>
+        [...document.querySelectorAll('#numbers span')].some((span) => span.textContent === 'C on the CPU' && /no WebGPU/.test(span.title)));
       await tab.close();
     });
 
     test('a software adapter leaves the fluid to the C solver', async () => {
       const tab = await open('particles=2000&scene=compare.html');
       await tab.engine('worker');
-      await tab.frames(2);
       const notes = await tab.evaluate(() => document.getElementById('notes').innerText);
       assert.match(notes, /software.*C solver/s);
       assert.match(notes, /compare\.html: no valid JSON/, 'and does not hide what else there is to say');
