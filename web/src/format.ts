@@ -13,10 +13,10 @@ export function formatNumber(value: number, digits = 3): string {
   return String(Number(value.toPrecision(digits)));
 }
 
-// The next of 1, 2, 5, 10, ... that is not below `value`.
-export function niceCeil(value: number): number {
+// The next of 1, 2, 5, 10, ... (or of other steps) that is not below `value`.
+export function niceCeil(value: number, steps: readonly number[] = [1, 2, 5]): number {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
   const part = value / power;
-  return (part <= 1.001 ? 1 : part <= 2.001 ? 2 : part <= 5.001 ? 5 : 10) * power;
+  return (steps.find((step) => part <= step + 0.001) ?? 10) * power;
 }

@@ -28,6 +28,14 @@ function namedSpeed(document: SceneDocument): number {
   return Math.max(0, ...fluid, ...walls, ...emitters);
 }
 
+// Of the highest fluid over the floor: a dam break's front comes to 2 sqrt(g H) (Ritter).
+function fluidHeight(document: SceneDocument, floor: number): number {
+  const tops = (document.fluid ?? []).map(({ box }) => (box?.max?.[1] ?? floor) - floor);
+  return Math.max(0, ...tops);
+}
+
+const speedSteps = [1, 1.5, 2, 3, 4, 5, 6, 8]; // whole numbers in the middle of the legend, or halves
+
 // Sets colorMin and colorMax from what the scene can be expected to do.
 export function chooseRange(view: View, scene: Scene, document: SceneDocument): void {
   const { min, max } = scene.domain;
@@ -39,7 +47,10 @@ export function chooseRange(view: View, scene: Scene, document: SceneDocument): 
   const named = namedSpeed(document);
   const fall = Math.sqrt(2 * gravity * height);
   view.colorMin = 0;
-  if (view.colorBy === ColorBy.speed) view.colorMax = niceCeil(Math.max((wcsph ? 0.7 : 0.55) * fall, named, 0.1));
+  const front = wcsph ? 2 * Math.sqrt(gravity * fluidHeight(document, min[1] ?? 0)) : 0;
+  if (view.colorBy === ColorBy.speed) {
+    view.colorMax = niceCeil(Math.max((wcsph ? 0.7 : 0.55) * fall, 0.8 * front, named, 0.1), speedSteps);
+  }
   if (view.colorBy === ColorBy.density) {
     view.colorMin = (wcsph ? 0.98 : 0.9) * restDensity;
     view.colorMax = (wcsph ? 1.02 : 1.1) * restDensity;

@@ -7,7 +7,7 @@ export type SceneDocument = {
   parameters?: Record<string, ParameterValue>;
   method?: string;
   dimension?: number;
-  fluid?: { velocity?: number[]; flow?: string; flow_rate?: number }[];
+  fluid?: { box?: { max?: number[] }; velocity?: number[]; flow?: string; flow_rate?: number }[];
   walls?: { surface_velocity?: number[]; motion?: { velocity?: number[] } }[];
   bodies?: unknown[];
   emitters?: { speed?: number }[];

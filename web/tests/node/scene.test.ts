@@ -5,8 +5,10 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSy
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { chooseRange } from '../../src/legend.ts';
 import type { SceneDocument } from '../../src/scene_document.ts';
 import { SceneStore } from '../../src/scene_store.ts';
+import { Camera } from '../../src/view.ts';
 import { Status, Weir, WeirError } from '../../src/weir.ts';
 import { root, wasmFile } from './support.ts';
 
@@ -328,5 +330,17 @@ test('another number of particles fills the same volume', () => {
     store.replace(store.withParticles(count));
     assert.ok(Math.abs(store.derived.particles / count - 1) < 0.15, `${name}: ${store.derived.particles} particles instead of ${count}`);
     assert.ok(Math.abs(volume() / before - 1) < 0.012, `${name}: ${store.derived.particles} particles fill ${volume()} instead of ${before}`);
+  }
+});
+
+test('the colours of the speed reach as far as the front of a dam break', () => {
+  for (const [name, height, most] of [['dam_2d', 2, 8], ['dam_3d', 1.2, 6], ['kleefsman', 0.54, 4]] as const) {
+    const document = JSON.parse(readFileSync(join(root, `scenes/${name}.json`), 'utf8')) as SceneDocument;
+    const scene = weir.loadScene(document);
+    const { view } = new Camera();
+    chooseRange(view, scene, document);
+    scene.destroy();
+    assert.deepEqual([view.colorMin, view.colorMax], [0, most], name);
+    assert.ok(view.colorMax > 1.6 * Math.sqrt(9.81 * height), name);
   }
 });
