@@ -121,7 +121,7 @@ double weir_solitary_speed(double gravity, double depth, double height)
 
 static double solitary_kappa(double depth, double height)
 {
-    return sqrt(0.75 * height / (depth * depth * depth));
+    return sqrt(0.75 * height / (depth * depth * (depth + height)));
 }
 
 double weir_solitary_surface(double depth, double height, double distance)

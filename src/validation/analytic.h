@@ -32,7 +32,7 @@ double weir_drop_largest_axis(double omega, double strain, double radius);
 // thesis, Rome 2005).
 double weir_rotating_square_pressure(double rho, double omega, double length, double x, double y);
 
-// Solitary wave of height a on still water of depth h: surface a sech^2(kappa (x - c t)), speed c = sqrt(g (h + a)),
-// kappa = sqrt(3 a / (4 h^3)) (Boussinesq).
+// Solitary wave of height a on still water of depth h (Rayleigh 1876): surface a sech^2(kappa (x - c t)), speed c = sqrt(g (h + a)),
+// kappa = sqrt(3 a / (4 h^2 (h + a))).
 double weir_solitary_speed(double gravity, double depth, double height);
 double weir_solitary_surface(double depth, double height, double distance);

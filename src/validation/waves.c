@@ -162,7 +162,7 @@ static void plan_solitary(WeirValidation *v)
     char label[48];
     snprintf(label, sizeof label, "h/%g", still_depth / spacing);
     weir_plan_run(v, label, "validation/solitary_wave/scene.json", weir_case_solitary_wave_scene, spacing,
-                  3.8, 0.01);
+                  4.0, 0.01);
     for (int k = 0; k < GAUGES; ++k) {
         char name[48];
         snprintf(name, sizeof name, "x = %g m", gauges[k]);

@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
-"""Writes scene.json: the piston's rows follow D. G. Goring (thesis, Caltech 1979).
+"""Writes scene.json: the piston makes Rayleigh's solitary wave (K. Guizien, E. Barthelemy, J. Hydraul. Res. 40, 2002).
 
-The piston moves with the water's mean speed behind it, X' = c eta / (h + eta) at x = X, which has the solution
-X = S/2 (tanh(theta) + 1), theta = kappa (c (t - t0) - X), S = 2 a / (kappa h). Run it in this folder.
+The piston moves with the water's mean speed behind it, X' = c eta / (h + eta) at x = X (D. G. Goring, thesis, Caltech
+1979), which has the solution X = S/2 (tanh(theta) + 1), theta = kappa (c (t - t0) - X), S = 2 a / (kappa h). Run it in
+this folder.
 """
 
 import json
 import math
 
 GRAVITY, DEPTH, HEIGHT = 9.81, 0.25, 0.05
-CREST_TIME = 1.45  # s, when the crest leaves the piston; theta is about -4 at the start
-END, STEP = 3.0, 0.05
+CREST_TIME = 1.6  # s, when the crest leaves the piston; theta is about -4 at the start
+END, STEP = 3.2, 0.05
 
-KAPPA = math.sqrt(0.75 * HEIGHT / DEPTH**3)
+KAPPA = math.sqrt(0.75 * HEIGHT / (DEPTH**2 * (DEPTH + HEIGHT)))
 SPEED = math.sqrt(GRAVITY * (DEPTH + HEIGHT))
 STROKE = 2 * HEIGHT / (KAPPA * DEPTH)
 
