@@ -11,11 +11,39 @@
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
+// Across the end of an axis runs do not come in the order of their slots, and entries count from the lowest one.
+const WRAPS = DIMENSION == 3u && (PERIODIC_X || PERIODIC_Y);
+
+fn layer_of(header: vec4u, layer: u32) -> u32 {
+    return select(select(header.w, header.z, layer == 1u), header.y, layer == 0u);
+}
+
+fn with_layer(header: vec4u, layer: u32, first: u32) -> vec4u {
+    return select(select(vec4u(header.xyz, first), vec4u(header.xy, first, header.w), layer == 1u),
+                  vec4u(header.x, first, header.zw), layer == 0u);
+}
+
+// A header with the lowest slot of each layer.
+fn first_candidates(place: Place, reach: i32) -> vec4u {
+    var header = vec4u(0u, vec3u(0xffffffffu));
+    var walk = walk_around(place, reach);
+    while next_run(&walk) {
+        let begin = cell_start[walk.first_cell];
+        if begin < cell_start[walk.end_cell] {
+            header = with_layer(header, walk.run_layer, min(begin, layer_of(header, walk.run_layer)));
+        }
+    }
+    return header;
+}
+
 fn make_list(i: u32, own: vec4i, start: u32) {
     let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
     let solid = is_solid(u32(own.w));
     let limit = f32(reach) * f32(reach);
     var header = vec4u(0u);
+    if WRAPS {
+        header = first_candidates(place_of(own), i32(reach));
+    }
     var layer = 0xffffffffu;
     var layer_first = 0u;
     var chunk = vec4u(0u);
@@ -30,9 +58,10 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         }
         if walk.run_layer != layer {
             layer = walk.run_layer;
-            layer_first = begin;
-            header = select(select(vec4u(header.xyz, begin), vec4u(header.xy, begin, header.w), layer == 1u),
-                            vec4u(header.x, begin, header.zw), layer == 0u);
+            if !WRAPS {
+                header = with_layer(header, layer, begin);
+            }
+            layer_first = layer_of(header, layer);
         }
         fits = fits && run_fits(i, layer_first, layer, begin, end);
         let shift = entry_shift(i, layer_first, layer);
