@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 // Workgroups that fill a large device; passes that often have nothing to do start no more of them.
-enum { MOST_SORTING = 2048 };
+enum { MOST_SORTING = 8192 };
 
 // ---- The step ----
 
