@@ -41,7 +41,9 @@ struct Sums {
 // Spray forgets tension, and density follows the real volume: docs/wcsph.md.
 const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
 const VOLUME_TIME = 1000.0; // h / c0
-const SPRAY_LIMIT = 0.5;    // share of the surface number in the bulk
+const SPRAY_LIMIT = 0.5;    // shares of the surface number in the bulk
+const RAGGED_LIMIT = 0.75;
+const RAGGED_TIME = 20.0;   // h / c0
 
 // 1 if friction acts on it.
 fn sticks(group: u32) -> f32 {
@@ -219,12 +221,14 @@ fn shift_of(sums: Sums) -> vec4f {
 fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
     let c = constants.sound_speed;
     let h = constants.smoothing_length;
+    let back = -excess / (parameters.rest_density + excess) * c / h;
     if surface < SPRAY_LIMIT * f32(DIMENSION) && excess < 0.0 {
-        return -excess / (parameters.rest_density + excess) * c / h;
+        return back;
     }
+    let ragged = select(0.0, back / RAGGED_TIME, surface < RAGGED_LIMIT * f32(DIMENSION));
     let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
     let is_full = surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling;
-    return rate + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
+    return rate + ragged + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
 }
 
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to

@@ -105,7 +105,6 @@ static const Field fields[] = {
     CONTROL(next_allowance, COUNT),
     {"control", "next_due.x", COUNT, offsetof(WeirWcsphControl, next_due)},
     {"control", "next_due.y", COUNT, offsetof(WeirWcsphControl, next_due) + 4},
-    {"control", "cut_count", COUNT, offsetof(WeirWcsphControl, cut_count)},
 };
 enum { FIELDS = sizeof fields / sizeof fields[0], SOLIDS = 3, EMITTERS = 4, DRAINS = 2, GROUPS = 1 };
 
