@@ -43,7 +43,7 @@ const FULL_SUPPORT = 0.98; // shares of the surface number in the bulk
 const VOLUME_TIME = 1000.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // shares of the surface number in the bulk
 const RAGGED_LIMIT = 0.75;
-const RAGGED_TIME = 20.0;   // h / c0
+const RAGGED_TIME = 10.0;   // h / c0
 
 // 1 if friction acts on it.
 fn sticks(group: u32) -> f32 {
@@ -217,18 +217,28 @@ fn shift_of(sums: Sums) -> vec4f {
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
 }
 
+// Excess density for the weight of fluid one support deep and the pressure rho0 v^2 / 2 at which the fastest fluid stagnates.
+fn due_excess() -> f32 {
+    let c = constants.sound_speed;
+    let mach = min(control.max_speed / c, 0.1);
+    let weight = parameters.support_radius * length(parameters.gravity.xyz) / (c * c);
+    return parameters.rest_density * (weight + 0.5 * mach * mach);
+}
+
 // What shifting (`rate`) and the volume that particles fill do to the density, and the return of spray to its rest density.
 fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
     let c = constants.sound_speed;
     let h = constants.smoothing_length;
-    let back = -excess / (parameters.rest_density + excess) * c / h;
+    let pace = c / h / (parameters.rest_density + excess);
     if surface < SPRAY_LIMIT * f32(DIMENSION) && excess < 0.0 {
-        return back;
+        return -excess * pace;
     }
-    let ragged = select(0.0, back / RAGGED_TIME, surface < RAGGED_LIMIT * f32(DIMENSION));
+    let due = due_excess();
+    let undue = excess - clamp(excess, -due, due);
+    let ragged = select(0.0, undue * pace / RAGGED_TIME, surface < RAGGED_LIMIT * f32(DIMENSION));
     let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
     let is_full = surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling;
-    return rate + ragged + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
+    return rate - ragged + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
 }
 
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to

@@ -121,6 +121,14 @@ static void gather_chunk(void *context, uint32_t begin, uint32_t end)
     prepare(solver, cells->cell_start[begin], cells->cell_start[end]);
 }
 
+// Excess density for the weight of fluid one support deep and the pressure rho0 v^2 / 2 at which the fastest fluid stagnates.
+static float due_excess(const WeirWcsph *solver, float flow_speed)
+{
+    const float *g = solver->parameters.gravity, c0 = solver->constants.sound_speed;
+    float weight = solver->parameters.support_radius * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    return solver->parameters.rest_density * (weight + 0.5f * flow_speed * flow_speed) / (c0 * c0);
+}
+
 // Points the pair passes to the arrays of the sorted particles, which change places with the state's every step.
 static void point_to_sorted(WeirWcsph *solver)
 {
@@ -130,6 +138,7 @@ static void point_to_sorted(WeirWcsph *solver)
     data->cell_start = solver->cells.cell_start;
     // One particle that flies faster than the method is valid for must not shake all the others.
     data->flow_speed = fminf(solver->clock.max_speed, 0.1f * solver->constants.sound_speed);
+    data->due_excess = due_excess(solver, data->flow_speed);
     data->flow_speed = fminf(data->flow_speed, solver->constants.shifting_limit / solver->dt);
     for (int axis = 0; axis < 3; ++axis) {
         data->x[axis] = solver->sorted.x[axis];

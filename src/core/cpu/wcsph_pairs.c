@@ -202,9 +202,9 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 // particles repel it; nearer than two they brake what approaches faster than a tenth of the speed of sound, more
 // than the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
-// good, it would pull at whatever it meets. Ragged fluid forgets any pressure, slowly: oscillations of a few particles would
-// gain energy by the Laplacian of full fluid.
-static const float spray_limit = 0.5f, ragged_limit = 0.75f, ragged_time = 20.0f;
+// good, it would pull at whatever it meets. Ragged fluid forgets pressure that neither weight nor motion explain: oscillations
+// of a few particles would gain energy by the Laplacian of full fluid.
+static const float spray_limit = 0.5f, ragged_limit = 0.75f, ragged_time = 10.0f; // times: h / c0
 // Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 1000.0f;
@@ -451,10 +451,13 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
     WeirLanes full = filling * (full_support * bulk / constants->lattice_filling);
     rate = weir_lanes_select((WeirMask)(surface >= full), rate + volume, rate);
     WeirLanes lack = -weir_lanes_load(data->excess + begin);
-    WeirLanes back = lack * weir_lanes_load(data->inverse_density + begin) * c0 / h;
-    rate = weir_lanes_select((WeirMask)(surface < ragged_limit * bulk), rate + back * (1.0f / ragged_time), rate);
+    WeirLanes pace = weir_lanes_load(data->inverse_density + begin) * c0 / h;
+    WeirLanes due = weir_lanes_fill(data->due_excess);
+    WeirLanes undue = weir_lanes_max(lack - due, zero) - weir_lanes_max(-lack - due, zero);
+    WeirMask ragged = (WeirMask)(surface < ragged_limit * bulk);
+    rate = weir_lanes_select(ragged, rate + undue * pace * (1.0f / ragged_time), rate);
     WeirMask spray = (WeirMask)(surface < spray_limit * bulk) & (WeirMask)(lack > zero);
-    return weir_lanes_select(spray, back, rate);
+    return weir_lanes_select(spray, lack * pace, rate);
 }
 
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to

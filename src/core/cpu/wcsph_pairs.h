@@ -11,6 +11,7 @@ typedef struct WeirWcsphData {
     const WeirConstants *constants;
     const uint32_t *cell_start;
     float flow_speed;    // m/s, the fluid's largest, at most c0 / 10 and what shifting stands
+    float due_excess;    // kg/m^3, the most that weight and motion alone give fluid near a surface
     float dt;            // s, of this step; 0 where only the forces are wanted
     float second_half;   // quanta per m/s: how far a velocity moves a particle in the second half of the step
     const int32_t *x[3]; // coordinates, quanta
