@@ -32,6 +32,9 @@ fn seconds_of(ticks: vec2u) -> f32 {
     return f32(ticks.y) * 0.0009765625 + f32(ticks.x) / TICKS_PER_ROOT / TICKS_PER_ROOT;
 }
 
+// Density error from which steps get shorter: three times what the method is valid for.
+const VIOLENT_ERROR = 0.1;
+
 // The largest values of the last step give the longest one that may follow that under way.
 fn limit_step() {
     control.max_speed = bitcast<f32>(control.speed_bits);
@@ -46,6 +49,10 @@ fn limit_step() {
         dt = min(dt, sqrt(h / acceleration));
     }
     dt *= parameters.courant;
+    let error = bitcast<f32>(control.error_bits);
+    if error > VIOLENT_ERROR {
+        dt *= sqrt(VIOLENT_ERROR / error);
+    }
     if parameters.viscosity > 0.0 {
         dt = min(dt, 0.125 * h * h * parameters.rest_density / parameters.viscosity);
     }
