@@ -51,7 +51,7 @@ fn limit_step() {
     dt *= parameters.courant;
     let error = bitcast<f32>(control.error_bits);
     if error > VIOLENT_ERROR {
-        dt *= sqrt(VIOLENT_ERROR / error);
+        dt *= max(sqrt(VIOLENT_ERROR / error), 0.1); // a step that vanishes would find no blow-up
     }
     if parameters.viscosity > 0.0 {
         dt = min(dt, 0.125 * h * h * parameters.rest_density / parameters.viscosity);

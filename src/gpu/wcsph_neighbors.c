@@ -12,8 +12,8 @@ static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowa
 static const double list_margin = 1.25;
 // Longer lists cannot be meant: 8 entries each.
 static const double most_chunks = 4096.0;
-// In 2D lists only pay while they fit the device's cache.
-static const double most_pairs_of_lists_2d = 1e7;
+// In 2D lists only pay while they fit the device's cache, or are short.
+static const double most_pairs_of_lists_2d = 1e7, short_list_2d = 25.0;
 // Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
 static const double pairs_for_every_step = 2e7;
 // Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
@@ -46,7 +46,8 @@ static uint32_t chunks_of_lists(const WeirParameters *parameters, const WeirCons
     if (!(wanted <= most_chunks)) return 0; // what is not a number too
     uint32_t chunks = (uint32_t)wanted;
     uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
-    bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d;
+    bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d ||
+                lattice_neighbors(parameters, 2, 1.0) <= short_list_2d;
     bool fits = 16 * 128 * blocks * (chunks + 1) <= most_bytes;
     return pays && fits && !is_short(constants, reach) ? chunks : 0;
 }

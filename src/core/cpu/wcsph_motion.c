@@ -359,7 +359,9 @@ void weir_wcsph_time_step(WeirWcsph *solver)
     float h = constants->smoothing_length, dt = h / (constants->sound_speed + clock->max_speed);
     if (clock->max_acceleration > 0.0f) dt = fminf(dt, sqrtf(h / clock->max_acceleration));
     dt *= parameters->courant;
-    if (clock->max_density_error > violent_error) dt *= sqrtf(violent_error / clock->max_density_error);
+    // A step that vanishes would find no blow-up.
+    if (clock->max_density_error > violent_error)
+        dt *= fmaxf(sqrtf(violent_error / clock->max_density_error), 0.1f);
     if (parameters->viscosity > 0.0f)
         dt = fminf(dt, 0.125f * h * h * parameters->rest_density / parameters->viscosity);
     clock->time_step = dt;
