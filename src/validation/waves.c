@@ -248,8 +248,8 @@ const WeirCase weir_case_solitary_wave = {
     .info = {"solitary_wave", "Solitary wave made by a piston",
              "A piston makes a solitary wave of height 50 mm on water 0.25 m deep: height and speed of its "
              "crest, "
-             "from gauges at three places, against Boussinesq's theory.",
-             "Boussinesq 1872; piston: Goring, thesis, Caltech 1979"},
+             "from gauges at three places, against Rayleigh's wave.",
+             "Rayleigh 1876; piston: Guizien and Barthelemy, J. Hydraul. Res. 40 (2002)"},
     .data_size = sizeof(Solitary),
     .plan = plan_solitary,
     .sample = sample_solitary,
