@@ -18,7 +18,7 @@ ENVIRONMENT = dict(
     os.environ,
     ASAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:allocator_may_return_null=1",
     UBSAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:print_stacktrace=1",
-    LSAN_OPTIONS=f"exitcode={SANITIZER_STATUS}",
+    LSAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:suppressions={SOURCE / 'tests/lsan.supp'}:print_suppressions=0",
 )
 
 # 25 x 25 particles that fall in a tank.
