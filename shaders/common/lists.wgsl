@@ -1,7 +1,7 @@
-// Where the chunks of a list lie: those of 128 particles side by side. Chunk 0 is the header: how many follow, and in 3D
-// the first candidate of each layer.
+// Where the lists lie. A list is written in parts of eight entries, and those of 128 particles lie side by side. Part 0 is the
+// header: how many entries follow, and in 3D the first candidate of each layer.
 const NO_LIST = 0xffffffffu;
 
-fn chunk_index(i: u32, chunk: u32) -> u32 {
-    return ((i >> 7u) * (LIST_CHUNKS + 1u) + chunk) * 128u + (i & 127u);
+fn part_index(i: u32, part: u32) -> u32 {
+    return ((i >> 7u) * (LIST_PARTS + 1u) + part) * 128u + (i & 127u);
 }

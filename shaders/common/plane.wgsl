@@ -38,20 +38,30 @@ fn nearest_z(way: Place) -> Place {
     return way;
 }
 
-// neighbors.wgsl: an entry is j - i in 16 bits, so what is added to j.
+// neighbors.wgsl: an entry is j - i + 32768, so what is added to j.
 fn entry_shift(i: u32, first: u32, layer: u32) -> u32 {
-    return 0u - i;
+    return 32768u - i;
 }
 
 fn run_fits(i: u32, first: u32, layer: u32, begin: u32, end: u32) -> bool {
-    return i32(begin) - i32(i) >= -32768 && i32(end) - i32(i) <= 32768;
+    return i32(begin) - i32(i) >= -32768 && i32(end) - i32(i) < 32768;
 }
 
 // i's own: it adds nothing.
 fn own_entry(i: u32, header: vec4u) -> u32 {
-    return 0u;
+    return 32768u;
 }
 
-fn listed(i: u32, header: vec4u, entry: u32) -> u32 {
-    return u32(i32(i) + (i32(entry << 16u) >> 16u));
+// What is to be added to entries.
+fn list_bases(start: u32, i: u32, header: vec4u) -> u32 {
+    return start + i - 32768u;
+}
+
+fn listed(base: u32, entry: u32) -> u32 {
+    return base + entry;
+}
+
+// forces.wgsl: of two particles, quanta; and one more, so that it can be divided by.
+fn distance_squared(offset: Vector) -> f32 {
+    return fma(offset.x, offset.x, fma(offset.y, offset.y, 1.0));
 }

@@ -57,6 +57,16 @@ fn own_entry(i: u32, header: vec4u) -> u32 {
                   i - header.y, i - header.y < 16384u);
 }
 
-fn listed(i: u32, header: vec4u, entry: u32) -> u32 {
-    return select(select(header.z, header.y, entry < 16384u), header.w, entry >= 32768u) + (entry & 16383u);
+// What is to be added to the entries of each layer.
+fn list_bases(start: u32, i: u32, header: vec4u) -> vec3u {
+    return header.yzw + vec3u(start, start - 16384u, start - 32768u);
+}
+
+fn listed(bases: vec3u, entry: u32) -> u32 {
+    return select(select(bases.y, bases.x, entry < 16384u), bases.z, entry >= 32768u) + entry;
+}
+
+// forces.wgsl: of two particles, quanta; and one more, so that it can be divided by.
+fn distance_squared(offset: Vector) -> f32 {
+    return fma(offset.x, offset.x, fma(offset.y, offset.y, fma(offset.z, offset.z, 1.0)));
 }

@@ -26,16 +26,22 @@ fn reading_start() -> u32 {
 struct Sums {
     pressure: Vector,   // of p_j
     gradient: Vector,   // of 1
-    viscous: Vector,    // of (v . x) / (r^2 + eta^2) x, between fluid
+    viscous: Vector,    // of (v . x) / r^2 x, between fluid
     laminar: Vector,    // of v, between fluid
     friction: Vector,   // of v, between fluid and no-slip solids
-    clustering: Vector, // of (W / W(spacing))^4
+    clustering: Vector, // of (W / kernel_factor)^4
     surface: f32,
     filling: f32,       // of W
     divergence: f32,    // of v . x, where the particles are at the end of the step
     laplacian: f32,     // of (1 - r / R) (p_j - p_i), between fluid
     moment: Vector,     // of (1 - r / R) x, between fluid
-    solid_gap: f32,     // the most by which fluid and a solid are closer than the brake's range, quanta
+    solid_square: f32,  // square of the least distance of fluid and a solid, quanta
+}
+
+fn no_sums() -> Sums {
+    var sums: Sums;
+    sums.solid_square = 1e30;
+    return sums;
 }
 
 // Spray forgets tension, and density follows the real volume: docs/wcsph.md.
@@ -58,28 +64,27 @@ struct Own {
     velocity: Vector,
     solid: bool, // one of a solid, on which only fluid acts
     stick: f32,
-    inverse_spacing_value: f32, // the same for all: not to be divided again for each pair
-    soft: f32,
     inverse_density: f32,
     pressure: f32,
-    second_half: f32, // quanta per m/s: how far a velocity moves a particle in the second half of the step
+    second_half: f32, // quanta per m/s: how far a velocity moves a particle in the second half of the step;
+    second_half_in_supports: f32, // 3/2 of that, in supports
 }
 
 // Whether forces on solid particles are asked for.
 const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
 
 fn own_of(own: vec4i, own_motion: vec4f) -> Own {
-    let h = constants.smoothing_length * constants.inverse_quantum;
+    let second_half = 0.5 * control.dt * constants.inverse_quantum;
     return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)),
-               1.0 / constants.spacing_value, 1e-4 * h * h, 1.0 / (parameters.rest_density + own_motion.w),
-               pressure_of(own_motion.w), 0.5 * control.dt * constants.inverse_quantum);
+               1.0 / (parameters.rest_density + own_motion.w), pressure_of(own_motion.w), second_half,
+               1.5 * second_half * constants.inverse_support);
 }
 
 fn added(a: Sums, b: Sums) -> Sums {
     return Sums(a.pressure + b.pressure, a.gradient + b.gradient, a.viscous + b.viscous, a.laminar + b.laminar,
                 a.friction + b.friction, a.clustering + b.clustering, a.surface + b.surface, a.filling + b.filling,
                 a.divergence + b.divergence, a.laplacian + b.laplacian, a.moment + b.moment,
-                max(a.solid_gap, b.solid_gap));
+                min(a.solid_square, b.solid_square));
 }
 
 fn way_since_sort() -> u32 {
@@ -90,28 +95,35 @@ fn way_since_sort() -> u32 {
     return control.reached - control.sorted_at;
 }
 
-fn add_itself(sums: ptr<function, Sums>, own: Own) {
-    (*sums).filling += kernel_shape(0.0) * own.inverse_density;
+// A particle that was counted as its own neighbour so many times too often.
+fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
+    (*sums).filling -= times * kernel_shape(1.0) * own.inverse_density;
 }
 
 // The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector, itself: bool) {
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector) {
     let group = u32(other.w);
     let solid = ON_SOLIDS && own.solid;
     let fluid = !HAS_SOLIDS || !is_solid(group);
     let acts = !(solid && !fluid) && !(CAN_EMPTY && group == GROUP_EMPTY);
-    let r_squared = dot(offset, offset);
-    let s = sqrt(r_squared) * constants.inverse_support;
+    let r_squared = distance_squared(offset);
+    let inverse_r = inverseSqrt(r_squared);
+    let q = within_support(r_squared * inverse_r);
     let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
-    let slope = kernel_slope(s) * inverse_density;
+    let slope = kernel_slope(q) * inverse_density;
     let both_fluid = select(0.0, slope, fluid && !solid);
     var pressure = pressure_of(neighbor.w);
     if TAIT && !fluid {
         pressure = linear_pressure(neighbor.w);
     }
     let relative = own.velocity - vector_of(neighbor);
+    var velocity = relative;
+    if !fluid {
+        velocity = own.velocity - displacing_velocity(group, place_of(other));
+    }
+    let approach = dot(velocity, offset);
     if VISCOUS {
-        (*sums).viscous += (both_fluid * dot(relative, offset) / (r_squared + own.soft)) * offset;
+        (*sums).viscous += (both_fluid * approach * (inverse_r * inverse_r)) * offset;
     }
     if LAMINAR {
         (*sums).laminar += both_fluid * relative;
@@ -122,41 +134,42 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
         if FRICTION {
             (*sums).friction += (slope * own.stick * sticks(group)) * relative;
         }
-        (*sums).solid_gap = max((*sums).solid_gap, quanta_of_spacings(BRAKE_RANGE) - sqrt(r_squared));
+        (*sums).solid_square = min((*sums).solid_square, r_squared);
     }
-    let shape = kernel_shape(s);
-    (*sums).filling += select(shape * inverse_density, 0.0, itself);
+    let shape = kernel_shape(q);
+    (*sums).filling += shape * inverse_density;
     if SHIFTING {
-        (*sums).clustering += (slope * power4(shape * own.inverse_spacing_value)) * offset;
+        (*sums).clustering += (slope * power4(shape)) * offset;
     }
     (*sums).surface += slope * r_squared;
-    if !FORCES_READ {
-        add_rates(sums, own, other, relative, offset, s, inverse_density, pressure);
+    if FORCES_READ {
+        return;
     }
-}
-
-// What a neighbour does to the density, over those within the support in the middle of the step: the rate belongs to the
-// places at the step's end, between two densities. `relative`: the velocity to it, if it is fluid.
-fn add_rates(sums: ptr<function, Sums>, own: Own, other: vec4i, relative: Vector, offset: Vector, s: f32,
-             inverse_density: f32, pressure: f32) {
-    let fluid = !HAS_SOLIDS || !is_solid(u32(other.w));
-    var velocity = relative;
-    if !fluid {
-        velocity = own.velocity - displacing_velocity(u32(other.w), place_of(other));
-    }
-    let end = offset + own.second_half * velocity;
-    let slope = kernel_slope(sqrt(dot(end, end)) * constants.inverse_support) * inverse_density;
-    (*sums).divergence += select(0.0, slope * dot(velocity, end), s < 1.0);
-    let weight = select(0.0, max(1.0 - s, 0.0) * inverse_density, fluid);
+    // What it does to the density, if it is within the support in the middle of the step: the rate belongs to the places at
+    // the step's end, between two densities.
+    let end_approach = approach + own.second_half * dot(velocity, velocity);
+    let growth = approach + end_approach; // of r^2, over second_half
+    (*sums).divergence += slope_at_end(own, q, r_squared, inverse_r, growth) * inverse_density * end_approach;
+    let weight = select(0.0, q * inverse_density, fluid);
     (*sums).laplacian += weight * (pressure - own.pressure);
     (*sums).moment += weight * offset;
+}
+
+// kernel_slope() where the step ends; of Wendland's kernel, q^3, to first order, which saves a root.
+fn slope_at_end(own: Own, q: f32, r_squared: f32, inverse_r: f32, growth: f32) -> f32 {
+    if KERNEL == KERNEL_CUBIC || KERNEL == KERNEL_QUINTIC {
+        let end = within_support(sqrt(max(r_squared + own.second_half * growth, 0.0)));
+        return select(0.0, kernel_slope(end), q > 0.0);
+    }
+    return q * q * saturate(q - own.second_half_in_supports * inverse_r * growth);
 }
 
 // Whether the barrier may act: few particles come so close to a solid, or approach it so fast, that they need that search.
 fn meets_barrier(sums: Sums, own_motion: vec4f) -> bool {
     let fast = length(vector_of(own_motion)) + FASTEST_SURFACE > BRAKE_LIMIT * constants.sound_speed;
-    let close = sums.solid_gap > quanta_of_spacings(BRAKE_RANGE - BARRIER_RANGE);
-    return HAS_SOLIDS && (close || (sums.solid_gap > 0.0 && (MOVING_SOLIDS || fast)));
+    let near = sqrt(sums.solid_square);
+    let close = near < quanta_of_spacings(BARRIER_RANGE);
+    return HAS_SOLIDS && (close || (near < quanta_of_spacings(BRAKE_RANGE) && (MOVING_SOLIDS || fast)));
 }
 
 // By pressure. `own_pressure` as it enters the sum.
@@ -211,7 +224,7 @@ fn shift_of(sums: Sums) -> vec4f {
     let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
     let factor = -parameters.shifting * 4.0 * constants.smoothing_length * flow_speed
         * gradient;
-    let u = factor * (sums.gradient + 0.2 * sums.clustering);
+    let u = factor * (sums.gradient + 0.2 * power4(1.0 / constants.spacing_value) * sums.clustering);
     let speed = length(u);
     let shift = u * select(1.0, most / max(speed, 1e-30), speed > most);
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
@@ -396,7 +409,7 @@ fn share_of(i: u32, lane: u32) -> Sums {
     let own = coordinate[reading_start() + i];
     let group = u32(own.w);
     if group == GROUP_EMPTY || (HAS_SOLIDS && is_solid(group) && !wants_force(group)) {
-        return Sums();
+        return no_sums();
     }
     return sum_pairs(i, place_of(own), own_of(own, motion[reading_start() + i]), lane);
 }

@@ -36,19 +36,22 @@ fn first_candidates(place: Place, reach: i32) -> vec4u {
     return header;
 }
 
+// Candidates that are loaded together, so that they wait for memory together.
+const BLOCK = 8u;
+
 fn make_list(i: u32, own: vec4i, start: u32) {
     let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
-    let solid = is_solid(u32(own.w));
     let limit = f32(reach) * f32(reach);
+    // Of groups less 1, those below are solids', which solids do not see.
+    let unseen = select(0u, GROUP_INLET - GROUP_SOLID, HAS_SOLIDS && is_solid(u32(own.w)));
+    var part = vec4u(0u);
+    var count = 0u;
     var header = vec4u(0u);
+    var fits = true;
     if WRAPS {
         header = first_candidates(place_of(own), i32(reach));
     }
     var layer = 0xffffffffu;
-    var layer_first = 0u;
-    var chunk = vec4u(0u);
-    var count = 0u;
-    var fits = true;
     var walk = walk_around(place_of(own), i32(reach));
     while next_run(&walk) {
         let begin = cell_start[walk.first_cell];
@@ -61,60 +64,64 @@ fn make_list(i: u32, own: vec4i, start: u32) {
             if !WRAPS {
                 header = with_layer(header, layer, begin);
             }
-            layer_first = layer_of(header, layer);
         }
-        fits = fits && run_fits(i, layer_first, layer, begin, end);
-        let shift = entry_shift(i, layer_first, layer);
-        for (var first = begin; first < end; first += 32u) {
-            for (var near = near_among(walk.place, start + first, start + end, limit, solid); near != 0u; near &= near - 1u) {
-                chunk = pushed(chunk, first + firstTrailingBit(near) + shift);
+        let first = layer_of(header, layer);
+        fits = fits && run_fits(i, first, layer, begin, end);
+        let shift = entry_shift(i, first, layer);
+        for (var at = begin; at < end; at += 32u) {
+            for (var near = near_among(walk.place, start + at, end - at, limit, unseen); near != 0u; near &= near - 1u) {
+                part = pushed(part, at + firstTrailingBit(near) + shift);
                 count += 1u;
-                if count % 8u == 0u && count <= 8u * LIST_CHUNKS {
-                    neighbor_list[chunk_index(i, count / 8u)] = chunk;
+                if count % 8u == 0u {
+                    store_part(i, count / 8u, part);
                 }
             }
         }
     }
-    fits = fits && count <= 8u * LIST_CHUNKS;
-    // The last chunk is filled with the particle itself.
-    if fits && count % 8u != 0u {
-        let self_entry = own_entry(i, header);
-        fits = self_entry != 0xffffu;
+    fits = fits && count <= 8u * LIST_PARTS && (count % 4u == 0u || own_entry(i, header) != 0xffffu);
+    let listed_count = count;
+    // What fills the last part is the particle itself.
+    if count % 8u != 0u {
         for (; count % 8u != 0u; count++) {
-            chunk = pushed(chunk, self_entry);
+            part = pushed(part, own_entry(i, header));
         }
-        neighbor_list[chunk_index(i, count / 8u)] = chunk;
+        store_part(i, count / 8u, part);
     }
-    neighbor_list[chunk_index(i, 0u)] = vec4u(select(NO_LIST, count / 8u, fits), header.yzw);
+    neighbor_list[part_index(i, 0u)] = vec4u(select(NO_LIST, listed_count, fits), header.yzw);
 }
 
-// Bits of the near ones among the 32 candidates from `first` on, as far as they lie before `end`.
-fn near_among(place: Place, first: u32, end: u32, limit: f32, solid: bool) -> u32 {
-    let count = min(end - first, 32u);
+// Bits of the near ones among the next 32 candidates, of which `left` are left of the run.
+fn near_among(place: Place, first: u32, left: u32, limit: f32, unseen: u32) -> u32 {
     var near = 0u;
-    for (var k = 0u; k < count; k += 4u) {
-        // Loads first, so that they wait for memory together.
-        let four = min(first + k + vec4u(0u, 1u, 2u, 3u), vec4u(end - 1u));
-        let a = coordinate[four.x];
-        let b = coordinate[four.y];
-        let c = coordinate[four.z];
-        let d = coordinate[four.w];
-        let bits = is_near(place, a, limit, solid) | (is_near(place, b, limit, solid) << 1u)
-            | (is_near(place, c, limit, solid) << 2u) | (is_near(place, d, limit, solid) << 3u);
-        near |= bits << k;
+    for (var k = 0u; k < min(left, 32u); k += BLOCK) {
+        near |= near_block(place, first + k, limit, unseen) << k;
     }
-    return near & (0xffffffffu >> (32u - count));
+    return near & (0xffffffffu >> (32u - min(left, 32u)));
 }
 
-// 1 or 0.
-fn is_near(place: Place, other: vec4i, limit: f32, solid: bool) -> u32 {
-    let offset = Vector(place - place_of(other));
-    return select(0u, 1u, dot(offset, offset) < limit && !(HAS_SOLIDS && solid && is_solid(u32(other.w))));
+fn near_block(place: Place, first: u32, limit: f32, unseen: u32) -> u32 {
+    var candidates: array<vec4i, BLOCK>;
+    for (var k = 0u; k < BLOCK; k++) {
+        candidates[k] = coordinate[first + k]; // beyond the run's end too, where it does not count
+    }
+    var near = 0u;
+    for (var k = 0u; k < BLOCK; k++) {
+        let offset = Vector(place - place_of(candidates[k]));
+        let is_seen = !(HAS_SOLIDS && u32(candidates[k].w) - GROUP_SOLID < unseen);
+        near |= select(0u, 1u << k, dot(offset, offset) < limit && is_seen);
+    }
+    return near;
 }
 
-// A chunk with an entry more; its first one falls out.
-fn pushed(chunk: vec4u, entry: u32) -> vec4u {
-    return (chunk >> vec4u(16u)) | (vec4u(chunk.yzw, entry) << vec4u(16u));
+// A part with an entry more; its first one falls out.
+fn pushed(part: vec4u, entry: u32) -> vec4u {
+    return (part >> vec4u(16u)) | (vec4u(part.yzw, entry) << vec4u(16u));
+}
+
+fn store_part(i: u32, part: u32, entries: vec4u) {
+    if part <= LIST_PARTS {
+        neighbor_list[part_index(i, part)] = entries;
+    }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)

@@ -25,6 +25,10 @@ struct Sums {
     moment: Vector,
 }
 
+fn no_sums() -> Sums {
+    return Sums();
+}
+
 fn added(a: Sums, b: Sums) -> Sums {
     return Sums(a.weight + b.weight, a.pressure + b.pressure, a.mean + b.mean, a.moment + b.moment);
 }
@@ -33,13 +37,13 @@ fn way_since_sort() -> u32 {
     return control.travelled + control.moved_finish[control.side] + control.moved_drift[control.side] - control.sorted_at;
 }
 
-fn add_itself(sums: ptr<function, Sums>, own: Own) {
+// Solid particles see no solid ones, so not themselves.
+fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
 }
 
 // The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, fluid: vec4f, offset: Vector, itself: bool) {
-    let s = sqrt(dot(offset, offset)) * constants.inverse_support;
-    let w = select(0.0, kernel_shape(s), is_fluid(u32(other.w)));
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, fluid: vec4f, offset: Vector) {
+    let w = select(0.0, kernel_shape(within_support(length(offset))), is_fluid(u32(other.w)));
     (*sums).weight += w;
     (*sums).pressure += w * pressure_of(fluid.w);
     (*sums).mean += w * vector_of(fluid);

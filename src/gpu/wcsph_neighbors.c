@@ -11,7 +11,7 @@ static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowa
 // Neighbours that a list has room for, in those of the lattice: fluid may be squeezed, and disordered.
 static const double list_margin = 1.25;
 // Longer lists cannot be meant: 8 entries each.
-static const double most_chunks = 4096.0;
+static const double most_parts = 4096.0;
 // In 2D lists only pay while they fit the device's cache, or are short.
 static const double most_pairs_of_lists_2d = 1e7, short_list_2d = 25.0;
 // Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
@@ -37,19 +37,19 @@ static bool is_short(const WeirConstants *constants, double reach)
 }
 
 // 0: none.
-static uint32_t chunks_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
-                                double allowance, double pairs, uint64_t most_bytes)
+static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
+                               double allowance, double pairs, uint64_t most_bytes)
 {
     double reach = 1.0 + 2.0 * allowance;
     double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
     double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
-    if (!(wanted <= most_chunks)) return 0; // what is not a number too
-    uint32_t chunks = (uint32_t)wanted;
+    if (!(wanted <= most_parts)) return 0; // what is not a number too
+    uint32_t parts = (uint32_t)wanted;
     uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
     bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d ||
                 lattice_neighbors(parameters, 2, 1.0) <= short_list_2d;
-    bool fits = 16 * 128 * blocks * (chunks + 1) <= most_bytes;
-    return pays && fits && !is_short(constants, reach) ? chunks : 0;
+    bool fits = 16 * 128 * blocks * (parts + 1) <= most_bytes;
+    return pays && fits && !is_short(constants, reach) ? parts : 0;
 }
 
 // In 3D a walk over rows and layers half as high meets 2.3 candidates per neighbour instead of 3.6: where cells, an eighth of
@@ -86,8 +86,8 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
                  traits->emitter_count > 0;
     traits->sort_interval = every ? 1 : 4;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
-    traits->list_chunks = chunks_of_lists(parameters, constants, most, pairs, most_bytes);
-    bool lists = traits->list_chunks > 0;
+    traits->list_parts = parts_of_lists(parameters, constants, most, pairs, most_bytes);
+    bool lists = traits->list_parts > 0;
     if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);

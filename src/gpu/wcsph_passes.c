@@ -164,8 +164,9 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_emitters] = at_least_one(traits->emitter_count) * sizeof(WeirEmitter);
     sizes[WEIR_WCSPH_drains] =
         at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
-    sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
-    sizes[WEIR_WCSPH_neighbor_list] = 16 * 128 * ((count + 127) / 128) * (traits->list_chunks + 1);
+    sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
+    sizes[WEIR_WCSPH_coordinate] = 3 * 16 * count + 8 * 16; // pass neighbors looks beyond the last one
+    sizes[WEIR_WCSPH_neighbor_list] = 16 * 128 * ((count + 127) / 128) * (traits->list_parts + 1);
     sizes[WEIR_WCSPH_solid_slot] = 4 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_id] = sizes[WEIR_WCSPH_sorted_id] = 4 * count;
     sizes[WEIR_WCSPH_cell_count] = sizes[WEIR_WCSPH_cell_start] = 4 * cells;
@@ -211,8 +212,8 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("FREE_SOLIDS", traits->free_solids);
     FLAG("SLIP_SOLIDS", traits->slip_solids);
     FLAG("CAN_EMPTY", traits->can_empty);
-    FLAG("LISTS", traits->list_chunks > 0);
-    NUMBER("LIST_CHUNKS", traits->list_chunks);
+    FLAG("LISTS", traits->list_parts > 0);
+    NUMBER("LIST_PARTS", traits->list_parts);
     NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);

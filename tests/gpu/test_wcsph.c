@@ -230,7 +230,7 @@ static void walks_find_what_lists_find(void **state)
         gpu->limits.maxStorageBufferBindingSize = 64 * (uint64_t)test.world.particles.count;
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
         gpu->limits.maxStorageBufferBindingSize = own;
-        assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_chunks, 0);
+        assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_parts, 0);
         begin_anew(on_gpu, &test, lanes[n]);
         take_steps(on_gpu, 40, INFINITY);
         take_steps(on_cpu, 40, INFINITY);

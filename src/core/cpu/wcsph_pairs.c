@@ -216,7 +216,7 @@ typedef struct ForceSums {
     Vector pressure;      // sum p_j / rho_j F^ x
     Vector gradient;      // sum 1 / rho_j F^ x
     Vector clustering;    // sum 1 / rho_j (W / W(spacing))^4 F^ x
-    Vector viscous;       // sum 1 / rho_j F^ (v . x) / (r^2 + 0.01 h^2) x, between fluid
+    Vector viscous;       // sum 1 / rho_j F^ (v . x) / r^2 x, between fluid
     Vector laminar;       // sum 1 / rho_j F^ v, between fluid
     Vector friction;      // the same between fluid and no-slip solids
     Vector barrier;       // sum of barrier and brake along x / r, between fluid and solid
@@ -229,7 +229,8 @@ typedef struct ForceSums {
 
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
-    float inverse_support, inverse_spacing, soft;
+    float inverse_support, inverse_spacing;
+    float second_half_in_supports;               // 3/2 of second_half
     bool viscous, laminar, friction, clustering; // terms that are not switched off
     WeirLanes support2, stick, barrier_reach, pressure;
     Vector seen_velocity, velocity;
@@ -238,12 +239,11 @@ typedef struct ForceLanes {
 INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float h = constants->smoothing_length * constants->inverse_quantum;
     float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
     return (ForceLanes){
         .inverse_support = constants->inverse_support,
         .inverse_spacing = 1.0f / constants->spacing_value,
-        .soft = 1e-4f * h * h,
+        .second_half_in_supports = 1.5f * data->second_half * constants->inverse_support,
         .viscous = constants->viscosity_factor != 0.0f,
         .laminar = constants->laminar_factor != 0.0f,
         .friction = constants->friction_factor != 0.0f,
@@ -275,20 +275,35 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
-// What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
-// places at the step's end, between two densities.
-INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
-                      WeirLanes s, Variant variant, ForceSums *sums)
+// F^ where the step ends; of Wendland's kernel, q^3 with q = 1 - s, to first order, which saves a root. `growth`: of r^2, over
+// second_half.
+INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, WeirLanes r2,
+                              WeirLanes inverse_r, WeirLanes s, WeirLanes growth, Variant variant)
 {
     const WeirLanes zero = {0};
+    if (variant.kernel == WEIR_KERNEL_CUBIC || variant.kernel == WEIR_KERNEL_QUINTIC) {
+        WeirLanes end2 = weir_lanes_max(r2 + data->second_half * growth, zero);
+        WeirLanes slope = kernel_slope(weir_lanes_sqrt(end2) * own->inverse_support, variant);
+        return weir_lanes_select((WeirMask)(r2 < own->support2), slope, zero);
+    }
+    WeirLanes q = rest_to(1.0f, s), end = q - own->second_half_in_supports * inverse_r * growth;
+    return q * q * -weir_lanes_max(-weir_lanes_max(end, zero), weir_lanes_fill(-1.0f)); // at most 1
+}
+
+// What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
+// places at the step's end, between two densities. `v`, `approach`: the velocity to it, if it is fluid, and v . x.
+INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
+                      WeirLanes inverse_r, WeirLanes s, Vector v, WeirLanes approach, Variant variant,
+                      ForceSums *sums)
+{
     bool fluid = data->is_fluid[j] != 0.0f;
-    Vector v =
-        less(own->velocity, fluid ? data->velocity : (const float *const *)data->new_velocity, j, variant);
-    Vector end = x;
-    add_scaled(&end, weir_lanes_fill(data->second_half), v, variant);
-    WeirLanes at_end = weir_lanes_sqrt(dot(end, end, variant)) * own->inverse_support;
-    WeirLanes slope = kernel_slope(at_end, variant) * data->inverse_density[j];
-    sums->divergence += weir_lanes_select((WeirMask)(r2 < own->support2), slope * dot(v, end, variant), zero);
+    if (!fluid) {
+        v = less(own->velocity, (const float *const *)data->new_velocity, j, variant);
+        approach = dot(v, x, variant);
+    }
+    WeirLanes end_approach = approach + data->second_half * dot(v, v, variant);
+    WeirLanes slope = slope_at_end(data, own, r2, inverse_r, s, approach + end_approach, variant);
+    sums->divergence += slope * data->inverse_density[j] * end_approach;
     if (!fluid) return;
     WeirLanes weight = rest_to(1.0f, s) * data->inverse_density[j];
     sums->laplacian += weight * (data->pressure[j] - own->pressure);
@@ -300,14 +315,15 @@ INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t
 INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
                        Variant variant, bool solids, ForceSums *sums)
 {
-    WeirLanes r = weir_lanes_sqrt(r2), s = r * own->inverse_support;
+    r2 += 1.0f; // quantum, so that it can be divided by
+    WeirLanes r = weir_lanes_sqrt(r2), inverse_r = 1.0f / r, s = r * own->inverse_support;
     WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
     Vector v = less(own->seen_velocity, (const float *const *)data->seen_velocity, j, variant);
+    WeirLanes approach = dot(v, x, variant);
     add_scaled(&sums->pressure, slope * data->pressure[j], x, variant);
     add_scaled(&sums->gradient, slope, x, variant);
     if (data->is_fluid[j] != 0.0f && !solids) {
-        if (own->viscous)
-            add_scaled(&sums->viscous, dot(v, x, variant) / (r2 + own->soft) * slope, x, variant);
+        if (own->viscous) add_scaled(&sums->viscous, slope * approach * (inverse_r * inverse_r), x, variant);
         if (own->laminar) add_scaled(&sums->laminar, slope, v, variant);
     } else {
         if (own->friction) add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
@@ -319,7 +335,7 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     sums->surface += slope * r2;
     if (own->clustering)
         add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
-    add_rates(data, own, j, x, r2, s, variant, sums);
+    add_rates(data, own, j, x, r2, inverse_r, s, v, approach, variant, sums);
 }
 
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
