@@ -41,7 +41,7 @@ fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
     return sums;
 }
 
-// A lane's share: every LANES-th chunk of the list, or candidate of a run of cells.
+// A lane's share: every LANES-th chunk of the list, or 32 candidates of a run of cells.
 fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
     let start = reading_start();
     let moved = way_since_sort();
@@ -85,11 +85,11 @@ fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
     var walk = walk_around(place, i32(1u << constants.coordinate_bits) + i32(moved));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
-        for (var j = cell_start[walk.first_cell] + lane; j < end; j += LANES) {
-            let other = coordinate[start + j];
-            let offset = Vector(walk.place - place_of(other));
-            if BRANCH_FREE || dot(offset, offset) < support * support {
-                add_pair(&sums, own, other, motion[start + j], offset);
+        for (var at = cell_start[walk.first_cell] + 32u * lane; at < end; at += 32u * LANES) {
+            for (var near = near_among(walk.place, start + at, end - at, support * support, 0u); near != 0u; near &= near - 1u) {
+                let j = start + at + firstTrailingBit(near);
+                let other = coordinate[j];
+                add_pair(&sums, own, other, motion[j], Vector(walk.place - place_of(other)));
             }
         }
     }

@@ -36,9 +36,6 @@ fn first_candidates(place: Place, reach: i32) -> vec4u {
     return header;
 }
 
-// Candidates that are loaded together, so that they wait for memory together.
-const BLOCK = 8u;
-
 fn make_list(i: u32, own: vec4i, start: u32) {
     let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
     let limit = f32(reach) * f32(reach);
@@ -88,29 +85,6 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         store_part(i, count / 8u, part);
     }
     neighbor_list[part_index(i, 0u)] = vec4u(select(NO_LIST, listed_count, fits), header.yzw);
-}
-
-// Bits of the near ones among the next 32 candidates, of which `left` are left of the run.
-fn near_among(place: Place, first: u32, left: u32, limit: f32, unseen: u32) -> u32 {
-    var near = 0u;
-    for (var k = 0u; k < min(left, 32u); k += BLOCK) {
-        near |= near_block(place, first + k, limit, unseen) << k;
-    }
-    return near & (0xffffffffu >> (32u - min(left, 32u)));
-}
-
-fn near_block(place: Place, first: u32, limit: f32, unseen: u32) -> u32 {
-    var candidates: array<vec4i, BLOCK>;
-    for (var k = 0u; k < BLOCK; k++) {
-        candidates[k] = coordinate[first + k]; // beyond the run's end too, where it does not count
-    }
-    var near = 0u;
-    for (var k = 0u; k < BLOCK; k++) {
-        let offset = Vector(place - place_of(candidates[k]));
-        let is_seen = !(HAS_SOLIDS && u32(candidates[k].w) - GROUP_SOLID < unseen);
-        near |= select(0u, 1u << k, dot(offset, offset) < limit && is_seen);
-    }
-    return near;
 }
 
 // A part with an entry more; its first one falls out.
