@@ -82,11 +82,21 @@ fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec
 fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
     var sums = no_sums();
     let support = f32(1u << constants.coordinate_bits);
+    let limit = support * support;
     var walk = walk_around(place, i32(1u << constants.coordinate_bits) + i32(moved));
     while next_run(&walk) {
+        let begin = cell_start[walk.first_cell];
         let end = cell_start[walk.end_cell];
-        for (var at = cell_start[walk.first_cell] + 32u * lane; at < end; at += 32u * LANES) {
-            for (var near = near_among(walk.place, start + at, end - at, support * support, 0u); near != 0u; near &= near - 1u) {
+        if DIMENSION == 2u {
+            // Every second candidate is near: all add themselves, those beyond the support 0.
+            for (var j = start + begin + lane; j < start + end; j += LANES) {
+                let other = coordinate[j];
+                add_pair(&sums, own, other, motion[j], Vector(walk.place - place_of(other)));
+            }
+            continue;
+        }
+        for (var at = begin + 32u * lane; at < end; at += 32u * LANES) {
+            for (var near = near_among(walk.place, start + at, end - at, limit, 0u); near != 0u; near &= near - 1u) {
                 let j = start + at + firstTrailingBit(near);
                 let other = coordinate[j];
                 add_pair(&sums, own, other, motion[j], Vector(walk.place - place_of(other)));

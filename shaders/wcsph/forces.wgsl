@@ -50,6 +50,8 @@ const VOLUME_TIME = 1000.0; // h / c0
 const SPRAY_LIMIT = 0.5;    // shares of the surface number in the bulk
 const RAGGED_LIMIT = 0.75;
 const RAGGED_TIME = 10.0;   // h / c0
+const CROWDED_LIMIT = 1.1;  // of the lattice's filling
+const CROWDED_TIME = 10.0;  // h / c0
 
 // 1 if friction acts on it.
 fn sticks(group: u32) -> f32 {
@@ -251,7 +253,8 @@ fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
     let ragged = select(0.0, undue * pace / RAGGED_TIME, surface < RAGGED_LIMIT * f32(DIMENSION));
     let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
     let is_full = surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling;
-    return rate - ragged + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
+    let crowd = max(filling - CROWDED_LIMIT * constants.lattice_filling, 0.0) * c / (CROWDED_TIME * h);
+    return rate - ragged + crowd + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
 }
 
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to

@@ -69,12 +69,18 @@ static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_comm
 static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
 static const char *const finish_part[] = {weir_wgsl_common_drift, weir_wgsl_common_finish, NULL};
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
-static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists, weir_wgsl_common_near, NULL};
-static const char *const walls_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
-                                         weir_wgsl_common_lists, weir_wgsl_common_near, weir_wgsl_common_neighbors, NULL};
-static const char *const forces_part[] = {weir_wgsl_common_lists, weir_wgsl_common_near, weir_wgsl_common_neighbors,
-                                          weir_wgsl_common_contact, weir_wgsl_common_drift,
-                                          weir_wgsl_common_finish,  NULL};
+static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists,
+                                         weir_wgsl_common_near, NULL};
+static const char *const walls_part[] = {weir_wgsl_common_clock,     weir_wgsl_common_emitters,
+                                         weir_wgsl_common_lists,     weir_wgsl_common_near,
+                                         weir_wgsl_common_neighbors, NULL};
+static const char *const forces_part[] = {weir_wgsl_common_lists,
+                                          weir_wgsl_common_near,
+                                          weir_wgsl_common_neighbors,
+                                          weir_wgsl_common_contact,
+                                          weir_wgsl_common_drift,
+                                          weir_wgsl_common_finish,
+                                          NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
 #define WCSPH(name)   #name, "pass " #name, weir_wgsl_wcsph_##name

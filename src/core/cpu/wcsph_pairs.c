@@ -208,6 +208,8 @@ static const float spray_limit = 0.5f, ragged_limit = 0.75f, ragged_time = 10.0f
 // Where the support is full the density follows the particles' real volume, so slowly that sound does not notice: within
 // volume_time h / c0.
 static const float full_support = 0.98f, volume_time = 1000.0f;
+// More than a tenth too many particles make themselves felt at once. Time: h / c0.
+static const float crowded_limit = 1.1f, crowded_time = 10.0f;
 static const float barrier_range = 0.85f, barrier_strength = 4.0f;
 static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f;
 
@@ -466,6 +468,8 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
     WeirLanes volume = (filling - constants->lattice_filling) * c0 / (volume_time * h);
     WeirLanes full = filling * (full_support * bulk / constants->lattice_filling);
     rate = weir_lanes_select((WeirMask)(surface >= full), rate + volume, rate);
+    WeirLanes crowd = filling - crowded_limit * constants->lattice_filling;
+    rate += weir_lanes_max(crowd, zero) * c0 / (crowded_time * h);
     WeirLanes lack = -weir_lanes_load(data->excess + begin);
     WeirLanes pace = weir_lanes_load(data->inverse_density + begin) * c0 / h;
     WeirLanes due = weir_lanes_fill(data->due_excess);
