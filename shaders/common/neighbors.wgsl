@@ -60,15 +60,25 @@ fn chunk_index(i: u32, chunk: u32) -> u32 {
     return 2u * part_index(i, 1u + (chunk >> 1u)) + (chunk & 1u);
 }
 
+// From a lane's chunk to its next one.
+fn chunk_stride(chunk: u32) -> u32 {
+    if LANES == 1u {
+        return select(2u * PART_STRIDE - 1u, 1u, (chunk & 1u) == 0u);
+    }
+    return LANES * PART_STRIDE;
+}
+
 // Each chunk is loaded while the one before it is summed.
 fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec4u) -> Sums {
     var sums = no_sums();
     let chunks = (header.x + 3u) / 4u;
     let bases = list_bases(start, i, header);
-    var next = neighbor_list[chunk_index(i, lane)];
+    var at = chunk_index(i, lane);
+    var next = neighbor_list[at];
     for (var c = lane; c < chunks; c += LANES) {
         let words = next;
-        next = neighbor_list[chunk_index(i, min(c + LANES, 2u * LIST_PARTS - 1u))];
+        at += chunk_stride(c);
+        next = neighbor_list[at];
         let slots = vec4u(listed(bases, words.x & 0xffffu), listed(bases, words.x >> 16u),
                           listed(bases, words.y & 0xffffu), listed(bases, words.y >> 16u));
         add_four(&sums, place, own, slots);

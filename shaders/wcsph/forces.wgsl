@@ -24,7 +24,7 @@ fn reading_start() -> u32 {
 }
 
 struct Sums {
-    pressure: Vector,   // of p_j
+    pressure: Vector,   // of p_j: see summed_pressure()
     gradient: Vector,   // of 1
     viscous: Vector,    // of (v . x) / r^2 x, between fluid
     laminar: Vector,    // of v, between fluid
@@ -56,7 +56,7 @@ const CROWDED_TIME = 10.0;  // h / c0
 // 1 if friction acts on it.
 fn sticks(group: u32) -> f32 {
     if SLIP_SOLIDS && is_solid(group) {
-        return f32(solid_table[group - GROUP_SOLID].no_slip);
+        return f32(solid_table[min(group - GROUP_SOLID, SOLID_COUNT - 1u)].no_slip);
     }
     return 1.0;
 }
@@ -78,7 +78,7 @@ const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
 fn own_of(own: vec4i, own_motion: vec4f) -> Own {
     let second_half = 0.5 * control.dt * constants.inverse_quantum;
     return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)),
-               1.0 / (parameters.rest_density + own_motion.w), pressure_of(own_motion.w), second_half,
+               1.0 / (parameters.rest_density + own_motion.w), summed_pressure(own_motion.w, true), second_half,
                1.5 * second_half * constants.inverse_support);
 }
 
@@ -97,6 +97,32 @@ fn way_since_sort() -> u32 {
     return control.reached - control.sorted_at;
 }
 
+// As it is summed: where the equation of state is linear, the excess density that stands for it, until with_pressure().
+fn summed_pressure(excess: f32, fluid: bool) -> f32 {
+    if !TAIT {
+        return excess;
+    }
+    return select(linear_pressure(excess), pressure_of(excess), fluid);
+}
+
+fn with_pressure(summed: Sums) -> Sums {
+    var sums = summed;
+    if !TAIT {
+        let stiffness = constants.sound_speed * constants.sound_speed;
+        sums.pressure = stiffness * sums.pressure + parameters.background_pressure * sums.gradient;
+        sums.laplacian *= stiffness;
+    }
+    return sums;
+}
+
+// Of a neighbour, asked of every pair: without emitters and drains all others are fluid.
+fn is_solid_neighbor(group: u32) -> bool {
+    if EMITTER_COUNT == 0u && !CAN_EMPTY {
+        return group != GROUP_FLUID;
+    }
+    return is_solid(group);
+}
+
 // A particle that was counted as its own neighbour so many times too often.
 fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
     (*sums).filling -= times * kernel_shape(1.0) * own.inverse_density;
@@ -106,7 +132,7 @@ fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
 fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector) {
     let group = u32(other.w);
     let solid = ON_SOLIDS && own.solid;
-    let fluid = !HAS_SOLIDS || !is_solid(group);
+    let fluid = !HAS_SOLIDS || !is_solid_neighbor(group);
     let acts = !(solid && !fluid) && !(CAN_EMPTY && group == GROUP_EMPTY);
     let r_squared = distance_squared(offset);
     let inverse_r = inverseSqrt(r_squared);
@@ -114,10 +140,7 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
     let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
     let slope = kernel_slope(q) * inverse_density;
     let both_fluid = select(0.0, slope, fluid && !solid);
-    var pressure = pressure_of(neighbor.w);
-    if TAIT && !fluid {
-        pressure = linear_pressure(neighbor.w);
-    }
+    let pressure = summed_pressure(neighbor.w, fluid);
     let relative = own.velocity - vector_of(neighbor);
     var velocity = relative;
     if !fluid {
@@ -274,7 +297,7 @@ fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
 }
 
 fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
-    let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
+    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
     var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
     if meets_barrier(sums, own_motion) {
@@ -327,7 +350,7 @@ fn publish_maxima() {
 }
 
 fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
-    let sums = all_sums(i, place_of(own), own_of(own, own_motion), local);
+    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
     let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
     let surface = full * sums.surface;
     let inside = surface >= 0.95 * f32(DIMENSION);
