@@ -7,19 +7,19 @@ fn column_line(coordinate: i32) -> u32 {
     return u32(max(coordinate, 0)) >> constants.column_shift;
 }
 
-// Of a row or layer.
-fn row_line(coordinate: i32) -> u32 {
-    return u32(max(coordinate, 0)) / ROW_HEIGHT;
+// Of a row or layer, which are so many quanta high.
+fn row_line(coordinate: i32, height: u32) -> u32 {
+    return u32(max(coordinate, 0)) / height;
 }
 
 fn grid_cell(place: Place) -> u32 {
     let coordinate = wide_place(place);
     let column = folded(column_line(coordinate.x), constants.cell_columns);
-    let row = folded(row_line(coordinate.y), constants.cell_rows);
+    let row = folded(row_line(coordinate.y, ROW_HEIGHT), constants.cell_rows);
     if DIMENSION == 2u {
         return row * constants.cell_columns + column;
     }
-    let layer = folded(row_line(coordinate.z), constants.cell_layers);
+    let layer = folded(row_line(coordinate.z, LAYER_HEIGHT), constants.cell_layers);
     return (layer * constants.cell_rows + row) * constants.cell_columns + column;
 }
 
@@ -32,24 +32,24 @@ struct Visits {
     count: u32,
 }
 
-fn visits_of(at: i32, reach: i32, count: u32, periodic: bool, period: u32) -> Visits {
+fn visits_of(at: i32, reach: i32, height: u32, count: u32, periodic: bool, period: u32) -> Visits {
     let low = at - reach;
     let high = at + reach;
-    let first = row_line(low);
+    let first = row_line(low, height);
     if !periodic {
-        let inside = min(row_line(high) + 1u - first, count);
+        let inside = min(row_line(high, height) + 1u - first, count);
         return Visits(0u, 0u, first, inside, inside);
     }
     let p = i32(period);
-    let last = row_line(p - 1);
-    var visits = Visits(0u, 0u, first, row_line(min(high, p - 1)) + 1u - first, 0u);
+    let last = row_line(p - 1, height);
+    var visits = Visits(0u, 0u, first, row_line(min(high, p - 1), height) + 1u - first, 0u);
     if low < 0 {
-        visits.below_first = row_line(low + p);
+        visits.below_first = row_line(low + p, height);
         visits.below = last + 1u - visits.below_first;
     }
     visits.count = visits.below + visits.inside;
     if high >= p {
-        visits.count += row_line(high - p) + 1u;
+        visits.count += row_line(high - p, height) + 1u;
     }
     return visits;
 }
@@ -66,10 +66,10 @@ fn visit(visits: Visits, k: u32) -> vec2i {
 }
 
 // Distance along one axis from `at` to a row of cells, in quanta. Row 0 also holds all that lies below it.
-fn row_distance(at: i32, row: i32) -> f32 {
-    let begin = row * i32(ROW_HEIGHT);
+fn row_distance(at: i32, row: i32, height: u32) -> f32 {
+    let begin = row * i32(height);
     let below = select(begin - at, 0, row == 0);
-    let above = at - begin - i32(ROW_HEIGHT - 1u);
+    let above = at - begin - i32(height - 1u);
     return f32(max(max(below, above), 0));
 }
 
@@ -97,10 +97,10 @@ fn walk_around(place: Place, reach: i32) -> Walk {
     let own = wide_place(place);
     walk.own = place;
     walk.reach = reach;
-    walk.rows = visits_of(own.y, reach, constants.cell_rows, PERIODIC_Y, constants.period_y);
+    walk.rows = visits_of(own.y, reach, ROW_HEIGHT, constants.cell_rows, PERIODIC_Y, constants.period_y);
     walk.layers = Visits(0u, 0u, 0u, 1u, 1u);
     if DIMENSION == 3u {
-        walk.layers = visits_of(own.z, reach, constants.cell_layers, PERIODIC_Z, constants.period_z);
+        walk.layers = visits_of(own.z, reach, LAYER_HEIGHT, constants.cell_layers, PERIODIC_Z, constants.period_z);
     }
     return walk;
 }
@@ -143,7 +143,7 @@ fn next_run(walk: ptr<function, Walk>) -> bool {
     var first_row_cell = folded(u32(row.x), constants.cell_rows) * constants.cell_columns;
     (*walk).place = (*walk).own;
     (*walk).place.y -= row.y * i32(constants.period_y);
-    let distance = row_distance((*walk).place.y, row.x);
+    let distance = row_distance((*walk).place.y, row.x, ROW_HEIGHT);
     var chord_squared = reach * reach - distance * distance;
     if DIMENSION == 3u {
         let layer = visit((*walk).layers, (*walk).layer);

@@ -1,5 +1,5 @@
-// Which candidates of a run of cells are near. First the tests of up to 32 of them, then the few that passed: a warp's lanes take as
-// long as the one with most of those. Testing and summing one by one, all would take part in each candidate that any has near.
+// Which candidates of a run of cells are near: up to 32 are tested before what passed is dealt with, so that the lanes of a warp
+// take as long as the one with most that passed. One by one, all lanes would take part wherever one of them has somebody near.
 
 // Candidates that are loaded together, so that they wait for memory together.
 const BLOCK = 8u;

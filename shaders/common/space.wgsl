@@ -22,7 +22,7 @@ fn wide_place(p: Place) -> vec3i {
 // cells.wgsl: puts the particle into the image of a layer of cells, and squares the distance to it.
 fn deeper(walk: ptr<function, Walk>, layer: vec2i) -> f32 {
     (*walk).place.z -= layer.y * i32(constants.period_z);
-    let distance = row_distance((*walk).place.z, layer.x);
+    let distance = row_distance((*walk).place.z, layer.x, LAYER_HEIGHT);
     return distance * distance;
 }
 

@@ -52,9 +52,9 @@ static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConst
     return pays && fits && !is_short(constants, reach) ? parts : 0;
 }
 
-// In 3D a walk over rows and layers half as high meets 2.3 candidates per neighbour instead of 3.6: where cells, an eighth of
-// a support wide, then still hold nearly a particle each. (Lists name three layers, and are made no faster so.)
-static bool walks_half_rows(const WeirParameters *parameters, uint32_t dimension)
+// In 3D rows and layers half as high offer 2.3 candidates per neighbour instead of 3.6: where cells, an eighth of a support
+// wide, then still hold nearly a particle each. Lists name three layers, so for them only rows are halved.
+static bool halves_rows(const WeirParameters *parameters, uint32_t dimension)
 {
     double ratio = (double)parameters->support_radius / parameters->particle_spacing;
     return dimension == 3 && ratio * ratio * ratio / 32.0 >= 0.75;
@@ -94,8 +94,11 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     // One row on either side holds all of a list, or what a walk wants while the order lasts.
     uint32_t height = (uint32_t)((1.0 + (lists ? 2.0 : 1.0) * most) * support) + 16;
     traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;
-    if (!lists && walks_half_rows(parameters, constants->dimension))
+    traits->layer_height = traits->row_height;
+    if (halves_rows(parameters, constants->dimension)) {
         traits->row_height = (traits->row_height + 1) / 2;
+        if (!lists) traits->layer_height = traits->row_height; // lists name three layers
+    }
 }
 
 static uint32_t rows_of(uint32_t rows, uint32_t shift, uint32_t height)
@@ -109,7 +112,7 @@ WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirCons
     WeirConstants cells = *constants;
     cells.cell_rows = rows_of(constants->cell_rows, constants->row_shift, traits->row_height);
     cells.cell_layers = constants->dimension == 3
-                            ? rows_of(constants->cell_layers, constants->row_shift, traits->row_height)
+                            ? rows_of(constants->cell_layers, constants->row_shift, traits->layer_height)
                             : 1;
     cells.cell_count = cells.cell_columns * cells.cell_rows * cells.cell_layers;
     return cells;
