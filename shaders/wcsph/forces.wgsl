@@ -14,13 +14,9 @@
 // Whether it does what otherwise pass finish does.
 const FINISHES = !MOVING_SOLIDS && !FORCES_READ;
 
-// Of the working copy that it reads: a read is between two steps.
-fn reading_side() -> u32 {
-    return select(control.last_side, control.side, FORCES_READ);
-}
-
+// Of the working copy: a read is between two steps.
 fn reading_start() -> u32 {
-    return side_start(reading_side());
+    return side_start(select(control.last_side, control.side, FORCES_READ));
 }
 
 struct Sums {
