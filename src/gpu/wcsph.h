@@ -128,6 +128,8 @@ static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
 // How neighbours are found, from what else is known of the world and of the device.
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
                          const WeirConstants *constants, const WeirGpu *gpu);
+// Of buffer neighbor_list; `parts` as list_parts.
+uint64_t weir_gpu_wcsph_list_bytes(uint32_t particle_count, uint32_t parts);
 // The constants with the cells of this plan.
 WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirConstants *constants);
 

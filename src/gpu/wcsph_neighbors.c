@@ -36,6 +36,13 @@ static bool is_short(const WeirConstants *constants, double reach)
     return false;
 }
 
+uint64_t weir_gpu_wcsph_list_bytes(uint32_t particle_count, uint32_t parts)
+{
+    // Those of 128 particles side by side. A reader looks up to eight chunks, four parts, beyond a list's end.
+    uint64_t blocks = ((uint64_t)particle_count + 127) / 128;
+    return 16 * 128 * (blocks * (parts + 1) + 4);
+}
+
 // 0: none.
 static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
                                double allowance, double pairs, uint64_t most_bytes)
@@ -45,10 +52,9 @@ static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConst
     double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
     if (!(wanted <= most_parts)) return 0; // what is not a number too
     uint32_t parts = (uint32_t)wanted;
-    uint64_t blocks = ((uint64_t)constants->particle_count + 127) / 128;
     bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d ||
                 lattice_neighbors(parameters, 2, 1.0) <= short_list_2d;
-    bool fits = 16 * 128 * blocks * (parts + 1) <= most_bytes;
+    bool fits = weir_gpu_wcsph_list_bytes(constants->particle_count, parts) <= most_bytes;
     return pays && fits && !is_short(constants, reach) ? parts : 0;
 }
 
