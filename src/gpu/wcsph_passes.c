@@ -172,7 +172,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_drains] =
         at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
     sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
-    sizes[WEIR_WCSPH_coordinate] = 3 * 16 * count + 8 * 16; // pass neighbors looks beyond the last one
+    sizes[WEIR_WCSPH_coordinate] = 3 * 16 * count + 8 * 16; // near_block() loads eight, the last ones beyond
     sizes[WEIR_WCSPH_neighbor_list] = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
     sizes[WEIR_WCSPH_solid_slot] = 4 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_id] = sizes[WEIR_WCSPH_sorted_id] = 4 * count;

@@ -232,7 +232,7 @@ typedef struct ForceSums {
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
     float inverse_support, inverse_spacing;
-    float second_half_in_supports;               // 3/2 of second_half
+    float second_half_in_supports;               // 3/2 of second_half, in supports
     bool viscous, laminar, friction, clustering; // terms that are not switched off
     WeirLanes support2, stick, barrier_reach, pressure;
     Vector seen_velocity, velocity;
