@@ -18,7 +18,7 @@ var<workgroup> sums: array<u32, WORKGROUP_SIZE>;
 var<workgroup> earliest: array<vec2u, WORKGROUP_SIZE>;
 var<workgroup> shared_count: u32;
 
-// For half a spacing of flow: so much layers may be early where another one is due, and are put off if they must wait.
+// For half a spacing of flow: so much layers may be early, and are put off if they must wait.
 fn share_of(n: u32) -> vec2u {
     return ticks_of(min(0.5 * parameters.particle_spacing / emitters[n].speed, 1000.0));
 }

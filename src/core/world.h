@@ -109,4 +109,10 @@ enum { WEIR_DRAIN_GROUP = 32 };
 // memory runs out.
 bool weir_world_group_drains(WeirWorld *world);
 
+// Layers are born before steps whose number this divides: 4, or 2 or 1 where the fastest emitter's flow would come farther
+// than half a spacing in so many steps. The GPU need not offer to sort in the others.
+enum { WEIR_EMISSION_INTERVAL = 4 };
+uint32_t weir_world_emission_interval(const WeirWorld *world, const WeirParameters *parameters,
+                                      const WeirConstants *constants);
+
 void weir_world_free(WeirWorld *world);

@@ -251,3 +251,18 @@ WeirStatus weir_build_emitters(WeirBuild *build)
     world->drain_count = scene->drain_count;
     return WEIR_OK;
 }
+
+uint32_t weir_world_emission_interval(const WeirWorld *world, const WeirParameters *parameters,
+                                      const WeirConstants *constants)
+{
+    bool fixed = parameters->stepping == WEIR_STEPPING_FIXED;
+    double sound = (double)constants->smoothing_length / (double)constants->sound_speed;
+    double longest = fixed ? (double)parameters->time_step : (double)parameters->courant * sound,
+           fastest = 0.0;
+    for (uint32_t n = 0; n < world->emitter_count; ++n)
+        fastest = fmax(fastest, (double)world->emitters[n].speed);
+    uint32_t interval = WEIR_EMISSION_INTERVAL;
+    while (interval > 1 && interval * fastest * longest > 0.5 * (double)parameters->particle_spacing)
+        interval /= 2;
+    return interval;
+}

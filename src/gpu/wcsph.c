@@ -176,7 +176,9 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
         return weir_fail(&base->message, WEIR_ERROR_INPUT,
                          "the neighbour grid would change from %u to %u cells: make a new simulation",
                          common->constants.cell_count, constants->cell_count);
-    const WeirWcsphTraits *traits = &solver->traits;
+    WeirWcsphTraits *traits = &solver->traits;
+    traits->emission_interval = weir_world_emission_interval(&solver->world, parameters, constants);
+    if (traits->sort_interval > traits->emission_interval) traits->sort_interval = traits->emission_interval;
     uint32_t count = constants->particle_count, solid_particles = count - constants->first_solid;
     common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * count);
     common->passes.groups[WEIR_ITEMS_SOLID_SHARES] =

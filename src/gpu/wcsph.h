@@ -89,6 +89,7 @@ typedef struct WeirWcsphTraits {
     float fastest_surface; // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
     uint32_t sort_interval;            // steps; particles may be sorted before those whose number it divides
+    uint32_t emission_interval;        // a multiple of it: weir_world_emission_interval()
     uint32_t lanes;                    // threads that share a particle's neighbours: 1, 2, 4, 8
     uint32_t list_parts;               // of 8 neighbours, per particle; 0: no lists
     uint32_t row_height, layer_height; // of cells, quanta

@@ -14,7 +14,8 @@ static const double list_margin = 1.25;
 static const double most_parts = 4096.0;
 // In 2D lists only pay while they fit the device's cache, or are short.
 static const double most_pairs_of_lists_2d = 1e7, short_list_2d = 25.0;
-// Sorting takes five dispatches even if there is nothing to do: below so many pairs it is offered in every 4th step.
+// Sorting takes five dispatches, with emitters seven, even if there is nothing to do: below so many pairs it is offered
+// as seldom as layers of emitters allow.
 static const double pairs_for_every_step = 2e7;
 // Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
 static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
@@ -88,9 +89,8 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
-    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED ||
-                 traits->emitter_count > 0;
-    traits->sort_interval = every ? 1 : 4;
+    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
+    traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
     traits->list_parts = parts_of_lists(parameters, constants, most, pairs, most_bytes);
     bool lists = traits->list_parts > 0;

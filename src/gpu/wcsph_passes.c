@@ -223,6 +223,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
+    NUMBER("EMISSION_INTERVAL", traits->emission_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
            traits->most_allowance);
     APPEND("const FASTEST_SURFACE = %.9e;\n", (double)traits->fastest_surface);

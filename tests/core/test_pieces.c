@@ -493,6 +493,28 @@ static void emitters_have_points_and_slots(void **state)
     weir_scene_destroy(scene);
 }
 
+// Layers may wait for the 4th step, unless the fastest flow would come farther than half a spacing of 0.1 m by then.
+static void fast_emitters_have_more_chances(void **state)
+{
+    (void)state;
+    WeirEmitter emitters[] = {{.speed = 0.5f}, {.speed = 1.0f}, {.speed = 0.1f}};
+    WeirWorld world = {.emitters = emitters};
+    WeirParameters parameters = {.particle_spacing = 0.1f, .courant = 0.5f, .time_step = 0.026f};
+    WeirConstants constants = {.smoothing_length = 0.2f, .sound_speed = 10.0f}; // steps of 0.01 s at most
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 4);
+    world.emitter_count = 3;
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 4);
+    emitters[1].speed = 1.3f;
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 2);
+    emitters[1].speed = 2.6f;
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 1);
+    emitters[1].speed = 9.0f;
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 1);
+    emitters[1].speed = 0.9f;
+    parameters.stepping = WEIR_STEPPING_FIXED;
+    assert_int_equal(weir_world_emission_interval(&world, &parameters, &constants), 2);
+}
+
 // Drains in any order: each is in one group, inside its box; what is in no box is in no drain.
 static void drains_are_grouped(void **state)
 {
@@ -553,6 +575,7 @@ int main(void)
         cmocka_unit_test(solid_moments_in_3d),
         cmocka_unit_test(motions_become_tables),
         cmocka_unit_test(emitters_have_points_and_slots),
+        cmocka_unit_test(fast_emitters_have_more_chances),
         cmocka_unit_test(drains_are_grouped),
         cmocka_unit_test(inlets_open_the_wall),
     };

@@ -263,6 +263,50 @@ static void taps_never_run_dry(void **state)
     weir_test_world_free(&test);
 }
 
+// Sorts are offered at the emitters' chances alone, more often where parameters that change make faster flow of it.
+static void sorts_are_offered_for_layers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t interval;
+    } cases[] = {{"dam_2d", 4}, {"taps_2d", 4}, {"tap_3d", 4}, {"tap_2d", 2}};
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
+        WeirTestWorld test = weir_test_case(cases[n].name);
+        WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+        const WeirWcsphTraits *traits = &((WeirWcsphGpu *)solver)->traits;
+        assert_int_equal(traits->sort_interval, cases[n].interval);
+        assert_int_equal(traits->emission_interval, cases[n].interval);
+        solver->interface->destroy(solver);
+        weir_test_world_free(&test);
+    }
+    WeirTestWorld test = weir_test_case("taps_2d");
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    WeirSolver *on_cpu = weir_test_world_solver(&test, weir_cpu_backend());
+    const WeirWcsphTraits *traits = &((WeirWcsphGpu *)solver)->traits;
+    WeirParameters parameters = ((WeirGpuSolver *)solver)->parameters;
+    WeirConstants constants = ((WeirGpuSolver *)solver)->constants;
+    static const double steps[] = {0.003, 0.005, 0.003};
+    static const uint32_t sorts[] = {4, 2, 2}, layers[] = {4, 2, 4};
+    parameters.stepping = WEIR_STEPPING_FIXED;
+    for (int n = 0; n < 3; ++n) {
+        parameters.time_step = (float)steps[n];
+        assert_int_equal(solver->interface->configure(solver, &parameters, &constants), WEIR_OK);
+        assert_int_equal(on_cpu->interface->configure(on_cpu, &parameters, &constants), WEIR_OK);
+        assert_int_equal(traits->sort_interval, sorts[n]);
+        assert_int_equal(traits->emission_interval, layers[n]);
+        for (int k = 0; k < 3; ++k) {
+            take_steps(solver, 3, INFINITY);
+            take_steps(on_cpu, 3, INFINITY);
+            assert_int_equal(health_of(solver).fluid_particles, health_of(on_cpu).fluid_particles);
+        }
+    }
+    assert_true(health_of(solver).fluid_particles > 40 * 2 + 40);
+    solver->interface->destroy(solver);
+    on_cpu->interface->destroy(on_cpu);
+    weir_test_world_free(&test);
+}
+
 // What may change while it runs takes effect, also where it needs other pipelines.
 static void parameters_change_while_it_runs(void **state)
 {
@@ -350,6 +394,7 @@ int main(void)
         cmocka_unit_test(the_last_good_state_is_kept),
         cmocka_unit_test(bodies_push_each_other),
         cmocka_unit_test(taps_never_run_dry),
+        cmocka_unit_test(sorts_are_offered_for_layers),
         cmocka_unit_test(parameters_change_while_it_runs),
         cmocka_unit_test(passes_are_timed),
     };

@@ -192,7 +192,8 @@ static void border_2d(WeirTestWorld *test)
 }
 
 // `across` particles wide; the first and the last layer may come at `start` and `stop`, s.
-static void add_tap(WeirTestWorld *test, double x, double y, uint32_t across, double start, double stop)
+static void add_tap(WeirTestWorld *test, double x, double y, uint32_t across, double speed, double start,
+                    double stop)
 {
     WeirWorld *world = &test->world;
     uint32_t dimension = world->particles.dimension, count = dimension == 3 ? across * across : across;
@@ -203,7 +204,7 @@ static void add_tap(WeirTestWorld *test, double x, double y, uint32_t across, do
     assert_true(world->emitters && world->points);
     world->emitters[n] = (WeirEmitter){.point_first = first,
                                        .point_count = count,
-                                       .speed = 3,
+                                       .speed = (float)speed,
                                        .start = (float)start,
                                        .stop = (float)stop,
                                        .direction = {0, -1, 0}};
@@ -232,7 +233,7 @@ static void tap_2d(WeirTestWorld *test)
     weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.6, 0.2, 0}, 0.1, 0.3);
     weir_test_world_slots(test, 5);
     weir_test_world_sides(test);
-    add_tap(test, 0.3, 0.5, 3, 0.003, 0.05);
+    add_tap(test, 0.3, 0.5, 3, 3, 0.003, 0.05);
     add_drain(test, 0.45, 0.6, 0.12);
 }
 
@@ -246,7 +247,7 @@ static void taps_2d(WeirTestWorld *test)
     weir_test_world_sides(test);
     for (uint32_t n = 0; n < 18; ++n) {
         double first = 0.002 * (n % 4);
-        add_tap(test, 0.15 + 0.1 * n, 0.4, 1 + n % 3, first, n == 7 ? first : 0.03 + 0.001 * n);
+        add_tap(test, 0.15 + 0.1 * n, 0.4, 1 + n % 3, 2, first, n == 7 ? first : 0.03 + 0.001 * n);
     }
     for (int n = 39; n >= 0; --n) add_drain(test, 0.05 * n, 0.05 * n + 0.01, 0.06);
 }
@@ -257,7 +258,7 @@ static void tap_3d(WeirTestWorld *test)
     weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.5, 0.15, 0.4}, 0.11, 0.3);
     weir_test_world_slots(test, 300);
     weir_test_world_sides(test);
-    add_tap(test, 0.25, 0.4, 3, 0.003, 0.05);
+    add_tap(test, 0.25, 0.4, 3, 2, 0.003, 0.05);
     add_drain(test, 0.4, 0.5, 0.1);
 }
 

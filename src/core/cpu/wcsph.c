@@ -230,7 +230,7 @@ static void choose_first_step(WeirWcsph *solver)
 // Length of the next step; the last two before `until` share what is left, so that none is tiny. 0: it is reached.
 static float next_step(const WeirWcsph *solver, double until)
 {
-    double left = until - solver->clock.time, dt = solver->clock.time_step;
+    double left = until - solver->clock.time, dt = solver->free_dt;
     if (isinf(until)) return (float)dt;
     if (left <= 1e-9 * fmax(until, 1e-3)) return 0.0f;
     if (dt >= left) return (float)left;
@@ -258,6 +258,7 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
     WeirWcsph *solver = (WeirWcsph *)base;
     for (uint32_t n = 0; n < steps && solver->bad.bad_particles == 0; ++n) {
+        solver->free_dt = solver->clock.time_step;
         solver->dt = next_step(solver, until);
         if (solver->dt <= 0.0f) break;
         take_step(solver);
@@ -290,6 +291,7 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
         return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u cells", constants->cell_count);
     solver->parameters = *parameters;
     solver->constants = *constants;
+    solver->emission_interval = weir_world_emission_interval(&solver->world, parameters, constants);
     return WEIR_OK;
 }
 

@@ -76,7 +76,8 @@ typedef struct WeirWcsph {
     float *solid_force; // 6 per solid particle: force of the fluid, of contact, N
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
-    float dt; // of the step that is being taken
+    uint32_t emission_interval; // weir_world_emission_interval()
+    float dt, free_dt;          // of the step that is being taken; the same, if nothing had shortened it
     WeirWcsphClock clock;
     WeirWcsphSnapshot snapshot;
     WeirHealth bad;          // the bad_particles, first_bad_ fields alone

@@ -17,26 +17,28 @@ static double share_of(const WeirWcsph *solver)
     return 0.5 * (double)solver->parameters.particle_spacing;
 }
 
-// One layer per spacing of flow.
-static bool is_due(const WeirWcsph *solver, uint32_t n, double time)
+// Whether emitter n's next layer is due within `ahead` metres of flow; there is one per spacing of flow.
+static bool is_due(const WeirWcsph *solver, uint32_t n, double time, double ahead)
 {
     const WeirEmitter *emitter = &solver->world.emitters[n];
-    return time <= emitter->stop && travel_of(solver, n, time) >= solver->emitters[n].next_travel;
+    double due = solver->emitters[n].next_travel;
+    return time <= emitter->stop && due <= travel_of(solver, n, emitter->stop) &&
+           travel_of(solver, n, time) >= due - ahead;
 }
 
+// At a chance, whether a layer is due before the next one, if the steps until then are as long as this one may be.
 static bool any_is_due(const WeirWcsph *solver, double time)
 {
+    if (solver->clock.steps % solver->emission_interval != 0) return false;
+    double until_next = solver->emission_interval * (double)solver->free_dt;
     for (uint32_t n = 0; n < solver->world.emitter_count; ++n)
-        if (is_due(solver, n, time)) return true;
+        if (is_due(solver, n, time, solver->world.emitters[n].speed * until_next)) return true;
     return false;
 }
 
 static bool takes_part(const WeirWcsph *solver, uint32_t n, double time)
 {
-    const WeirEmitter *emitter = &solver->world.emitters[n];
-    double due = solver->emitters[n].next_travel;
-    return time <= emitter->stop && due <= travel_of(solver, n, emitter->stop) &&
-           travel_of(solver, n, time) >= due - share_of(solver);
+    return is_due(solver, n, time, share_of(solver));
 }
 
 // Leaves the places of the `wanted` empty slots of the lowest ids in solver->vacancy, by id; returns how many there are.
