@@ -53,14 +53,14 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = coordinate[start + j];
+            let other = coordinate_at(start + j);
             let offset = Vector(walk.place - place_of(other));
             let r = max(length(offset), barrier_range / 3.0);
             let near = 1.0 - r / brake_range;
             let mixed = u32(other.w) != GROUP_EMPTY && is_solid(u32(other.w)) != solid;
             if mixed && near > 0.0 {
                 let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
-                let approach = -dot(approach_velocity(own, own_motion, other, motion[start + j]), offset)
+                let approach = -dot(approach_velocity(own, own_motion, other, motion_at(start + j)), offset)
                     / (r * constants.sound_speed);
                 let brake = BRAKE_STRENGTH / parameters.courant * near * max(approach - BRAKE_LIMIT, 0.0);
                 sum += ((push + brake) / r) * offset;
@@ -84,7 +84,7 @@ fn contact_force(own: vec4i) -> Vector {
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = coordinate[start + j];
+            let other = coordinate_at(start + j);
             let offset = Vector(walk.place - place_of(other)) * constants.quantum;
             let r_squared = dot(offset, offset);
             if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {

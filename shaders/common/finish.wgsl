@@ -1,9 +1,6 @@
 // The second half of a step's move with health (weir_wcsph_finish): rho += dt/2 drho, x += dt/2 v + dt u; and the first half of the
 // next step's move, if there is one. Used by forces where no solid moves, and by pass finish; after common/drift.wgsl.
 // One thread of a workgroup calls clear_finish() before, and publish_finish() after all others are through.
-@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
-@group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
 // Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
@@ -54,7 +51,7 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
     }
     atomicAdd(&control.bad_particles, 1u);
     atomicMin(&control.bad_step, control.steps);
-    atomicMin(&control.bad_id, id[i]);
+    atomicMin(&control.bad_slot, i);
     // The next step sees it: what this one began with, half a step ago, is the last good state, and nothing may run over it.
 }
 
@@ -116,6 +113,6 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
 fn leave(i: u32, at: vec4i, own_motion: vec4f) {
     let sorts = control.sorting == 1u || control.next_dt == 0.0;
     let target_slot = select(side_start(1u - control.last_side), 0u, sorts) + i;
-    coordinate[target_slot] = at;
-    motion[target_slot] = own_motion;
+    set_coordinate(target_slot, at);
+    set_motion(target_slot, own_motion);
 }

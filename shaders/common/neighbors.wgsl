@@ -100,16 +100,16 @@ fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
         if DIMENSION == 2u {
             // Every second candidate is near: all add themselves, those beyond the support 0.
             for (var j = start + begin + lane; j < start + end; j += LANES) {
-                let other = coordinate[j];
-                add_pair(&sums, own, other, motion[j], Vector(walk.place - place_of(other)));
+                let other = particle_at(j);
+                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)));
             }
             continue;
         }
         for (var at = begin + 32u * lane; at < end; at += 32u * LANES) {
             for (var near = near_among(walk.place, start + at, end - at, limit, 0u); near != 0u; near &= near - 1u) {
                 let j = start + at + firstTrailingBit(near);
-                let other = coordinate[j];
-                add_pair(&sums, own, other, motion[j], Vector(walk.place - place_of(other)));
+                let other = particle_at(j);
+                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)));
             }
         }
     }
@@ -118,20 +118,16 @@ fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
 
 // Loads first: compilers spread them over the sums as registers allow.
 fn add_four(sums: ptr<function, Sums>, place: Place, own: Own, slots: vec4u) {
-    let a = coordinate[slots.x];
-    let b = coordinate[slots.y];
-    let c = coordinate[slots.z];
-    let d = coordinate[slots.w];
-    let motion_a = motion[slots.x];
-    let motion_b = motion[slots.y];
-    let motion_c = motion[slots.z];
-    let motion_d = motion[slots.w];
-    add_pair(sums, own, a, motion_a, offset_to(place, a));
-    add_pair(sums, own, b, motion_b, offset_to(place, b));
-    add_pair(sums, own, c, motion_c, offset_to(place, c));
-    add_pair(sums, own, d, motion_d, offset_to(place, d));
+    let a = particle_at(slots.x);
+    let b = particle_at(slots.y);
+    let c = particle_at(slots.z);
+    let d = particle_at(slots.w);
+    add_pair(sums, own, a, offset_to(place, a));
+    add_pair(sums, own, b, offset_to(place, b));
+    add_pair(sums, own, c, offset_to(place, c));
+    add_pair(sums, own, d, offset_to(place, d));
 }
 
-fn offset_to(place: Place, other: vec4i) -> Vector {
-    return Vector(nearest(place - place_of(other)));
+fn offset_to(place: Place, other: Particle) -> Vector {
+    return Vector(nearest(place - place_of(other.coordinate)));
 }

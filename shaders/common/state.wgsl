@@ -8,6 +8,12 @@ fn is_solid(group: u32) -> bool {
     return group - GROUP_SOLID < GROUP_INLET - GROUP_SOLID;
 }
 
+// One of the copies' (particle_at()).
+struct Particle {
+    coordinate: vec4i, // place in quanta, group
+    motion: vec4f,     // velocity, m/s; density less rest density, kg/m^3
+}
+
 // Free fluid, and an inlet's.
 fn is_fluid(group: u32) -> bool {
     return group == GROUP_FLUID || (group >= GROUP_INLET && group != GROUP_EMPTY);
@@ -18,6 +24,8 @@ fn is_fluid(group: u32) -> bool {
 // No pass reads what another thread of it writes. One thread of `walls` (or `time_step`) does the clock for the passes from
 // `forces` on, and one thread of `forces` tells the next step's sort and `walls` where it left the particles: running,
 // side, travelled.
+//
+// What many threads add to while others read the rest lies apart: a line of the caches for each.
 struct Control {
     until: vec2u,           // written by the host for a batch of steps: no step passes it;
     steps_left: u32,        // and how many steps it may take
@@ -30,16 +38,9 @@ struct Control {
     next_dt: f32,           // s, of the step after it; 0: it is not taken yet
     free_dt: f32,           // the same, if nothing shortens it
     max_speed: f32,         // m/s, of the fluid in the step before
-    speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
-    acceleration_bits: u32, // have their order
-    error_bits: u32,        // largest density error of the last step
-    bad_particles: u32,
-    bad_step: u32,          // 0xffffffff: none
-    bad_id: u32,
-    bad_place: vec4i,       // coordinate of particle bad_id
+    bad_id: u32,            // of the particle in bad_slot
     starting: u32,          // 1: forces_read takes the maxima of a new state
-    drained: u32,
-    lost: u32,
+    bad_place: vec4i,       // coordinate of the particle in bad_slot
     emitted: u32,
     restored: u32,          // 1: after a blow-up the last good state was put back
     // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
@@ -50,11 +51,20 @@ struct Control {
     travelled: u32,         // up to the last step's kick;
     reached: u32,           // up to that of the step under way
     sorted_at: u32,         // way when the particles were sorted
+    allowance: u32,         // way after which lists made then may miss neighbours
+    next_due: vec2u,        // time at which emitters may have a layer next
+    next_allowance: u32,
+    unused: array<u32, 31>,
+    speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
+    acceleration_bits: u32, // have their order
+    error_bits: u32,        // largest density error of the last step
+    bad_particles: u32,
+    bad_step: u32,          // 0xffffffff: none
+    bad_slot: u32,          // of the bad particles the first in the order of cells
+    drained: u32,
+    lost: u32,
     moved_finish: array<u32, 2>,// since the last kick, in the second half of its step's move,
     moved_drift: array<u32, 2>,// and in the first half of the next one's; by the side that they moved to
-    allowance: u32,         // way after which lists made then may miss neighbours
-    next_allowance: u32,
-    next_due: vec2u,        // time at which emitters may have a layer next
 }
 
 // The same for passes in which all particles write at once.
@@ -70,16 +80,9 @@ struct SharedControl {
     next_dt: f32,
     free_dt: f32,
     max_speed: f32,
-    speed_bits: atomic<u32>,
-    acceleration_bits: atomic<u32>,
-    error_bits: atomic<u32>,
-    bad_particles: atomic<u32>,
-    bad_step: atomic<u32>,
-    bad_id: atomic<u32>,
-    bad_place: vec4i,
+    bad_id: u32,
     starting: u32,
-    drained: atomic<u32>,
-    lost: atomic<u32>,
+    bad_place: vec4i,
     emitted: u32,
     restored: u32,
     side: u32,
@@ -89,11 +92,20 @@ struct SharedControl {
     travelled: u32,
     reached: u32,
     sorted_at: u32,
+    allowance: u32,
+    next_due: vec2u,
+    next_allowance: u32,
+    unused: array<u32, 31>,
+    speed_bits: atomic<u32>,
+    acceleration_bits: atomic<u32>,
+    error_bits: atomic<u32>,
+    bad_particles: atomic<u32>,
+    bad_step: atomic<u32>,
+    bad_slot: atomic<u32>,
+    drained: atomic<u32>,
+    lost: atomic<u32>,
     moved_finish: array<atomic<u32>, 2>,
     moved_drift: array<atomic<u32>, 2>,
-    allowance: u32,
-    next_allowance: u32,
-    next_due: vec2u,
 }
 
 // WeirSolid: what of a wall or body stays.

@@ -4,7 +4,6 @@
 // in:  coordinate, id, control
 // out: cell_count (was 0), cell_link: the head of each cell's list (was 0: empty), then the next of each id; an
 //      entry is an id plus 1, 0 ends the list. Of an empty slot: its rank among them.
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<atomic<u32>>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<atomic<u32>>;
@@ -33,7 +32,7 @@ fn count_block(i: u32, local: u32) {
     var own = 0u;
     var rank = 0u;
     if i < constants.particle_count {
-        let at = coordinate[i];
+        let at = coordinate_at(i);
         own = id[i];
         is_empty = u32(at.w) == GROUP_EMPTY;
         if is_empty {

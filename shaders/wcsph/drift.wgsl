@@ -1,12 +1,10 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
 // The later steps' is done where the last one finishes. What is to be sorted stays in the state, the rest goes to a working copy.
 //
-// in:  coordinate, motion, id, kicked (drho/dt of the last step in its second half), solid_state, local_place, control
+// in:  coordinate, motion, id, density_rate (of the last step), solid_state, local_place, control
 // out: coordinate, motion, counts and largest way in control
-@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
-@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
+@group(0) @binding(BINDING_density_rate) var<storage, read> density_rate: array<f32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
@@ -31,14 +29,14 @@ fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
 }
 
 fn drift_particle(i: u32, target_slot: u32) {
-    let old = coordinate[i];
-    var own = motion[i];
+    let old = coordinate_at(i);
+    var own = motion_at(i);
     var at = old;
     let group = u32(old.w);
     if is_fluid(group) {
         let half = 0.5 * control.next_dt;
         if control.steps > 0u {
-            own.w += half * kicked[constants.particle_count + i].w;
+            own.w += half * density_rate[i];
         }
         let to = drifted(old, vector_of(own), half);
         at = to.coordinate;
@@ -53,6 +51,6 @@ fn drift_particle(i: u32, target_slot: u32) {
         let way = way_to(solid_state[NOW + group - GROUP_SOLID], start, place_of(old));
         at = vec4i(wide_place(place_of(old) + way), old.w);
     }
-    coordinate[target_slot] = at;
-    motion[target_slot] = own;
+    set_coordinate(target_slot, at);
+    set_motion(target_slot, own);
 }

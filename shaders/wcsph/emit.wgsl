@@ -7,8 +7,6 @@
 @group(0) @binding(BINDING_nozzle) var<storage, read> nozzle: array<vec4i>;
 // By emitter: when its next layer is due, xy, and when it stops, zw.
 @group(0) @binding(BINDING_schedule) var<storage, read_write> schedule: array<vec4u>;
-@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 
 const NEVER = vec2u(0xffffffffu);
 
@@ -98,8 +96,8 @@ fn bear(k: u32) {
     let way = select(0.0, late, late < parameters.particle_spacing); // 0: it is very late
     let direction = vector_of(emitters[n].direction);
     let born = place_of(nozzle[emitters[n].point_first + k - layers[n]]) + quanta_of(way * direction);
-    coordinate[i] = vec4i(wide_place(born), i32(GROUP_INLET + n));
-    motion[i] = vec4f(wide(speed * direction), 0.0);
+    set_coordinate(i, vec4i(wide_place(born), i32(GROUP_INLET + n)));
+    set_motion(i, vec4f(wide(speed * direction), 0.0));
 }
 
 // Plans emitter n's next layer; returns when it is due.

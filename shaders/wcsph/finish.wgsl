@@ -1,22 +1,21 @@
 // The step's second half where solids move (common/finish.wgsl); elsewhere forces does it.
 //
-// in:  coordinate, id, kicked (its second half: shifting velocities and drho/dt, ways of moving solids)
+// in:  coordinate, kicked (its second copy: shifting velocities and drho/dt, ways of moving solids)
 // out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; maxima and
 //      counts in control
-@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
 
 fn finish_particle(i: u32) {
-    let own = coordinate[side_start(control.last_side) + i];
+    let own = coordinate_at(side_start(control.last_side) + i);
     let group = u32(own.w);
     if is_fluid(group) {
-        finish_fluid(i, own, kicked[i], kicked[constants.particle_count + i]);
+        finish_fluid(i, own, kicked_at(i), kicked_at(constants.particle_count + i));
         return;
     }
     var place = own;
-    var own_motion = kicked[i];
+    var own_motion = kicked_at(i);
     if is_solid(group) {
         if solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
-            let way = Place(vector_of(kicked[constants.particle_count + i]));
+            let way = Place(vector_of(kicked_at(constants.particle_count + i)));
             place = vec4i(wide_place(place_of(own) + way), own.w);
         }
         own_motion += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);

@@ -5,11 +5,11 @@
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
-// out: kicked: new velocity and density; from particle_count on: shifting velocity and drho/dt. Of particles of free bodies:
-//      force of contact and density; force of the fluid. control: maxima, where the next step finds the particles
-//      Where no solid moves: coordinate, motion as pass finish leaves them; of kicked drho/dt alone, if no step follows.
+// out: kicked: new velocity and density; its second copy: shifting velocity and drho/dt. Of particles of free bodies:
+//      force of contact and density; force of the fluid. Where no solid moves instead: coordinate, motion as pass finish
+//      leaves them. density_rate, if no step follows. control: maxima, where the next step finds the particles
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
-@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
+@group(0) @binding(BINDING_density_rate) var<storage, read_write> density_rate: array<f32>;
 
 // Whether it does what otherwise pass finish does.
 const FINISHES = !MOVING_SOLIDS && !FORCES_READ;
@@ -128,8 +128,9 @@ fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
 }
 
 // The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, offset: Vector) {
-    let group = u32(other.w);
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector) {
+    let neighbor = other.motion;
+    let group = u32(other.coordinate.w);
     let solid = ON_SOLIDS && own.solid;
     let fluid = !HAS_SOLIDS || !is_solid_neighbor(group);
     let acts = !(solid && !fluid) && !(CAN_EMPTY && group == GROUP_EMPTY);
@@ -143,7 +144,7 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, neighbor: vec4f, 
     let relative = own.velocity - vector_of(neighbor);
     var velocity = relative;
     if !fluid {
-        velocity = own.velocity - displacing_velocity(group, place_of(other));
+        velocity = own.velocity - displacing_velocity(group, place_of(other.coordinate));
     }
     let approach = dot(velocity, offset);
     if VISCOUS {
@@ -295,16 +296,12 @@ fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
     return rho * (compress * sums.divergence + shift_rate + pull) + constants.laplacian_factor * spread;
 }
 
-fn force_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
+fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
     let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
     var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
     if meets_barrier(sums, own_motion) {
         acceleration += barrier_of(own, own_motion);
-    }
-    kicked[constants.particle_count + i] = vec4f(constants.particle_mass * wide(acceleration), 0.0);
-    if FREE_SOLIDS && solid_table[u32(own.w) - GROUP_SOLID].kind == SOLID_FREE {
-        kicked[i] = vec4f(wide(contact_force(own)), own_motion.w);
     }
     return acceleration;
 }
@@ -364,7 +361,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     }
     let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity
     if FORCES_READ {
-        kicked[i] = vec4f(wide(acceleration), pressure);
+        set_kicked(i, vec4f(wide(acceleration), pressure));
         if control.starting == 1u {
             take_speed(dot(velocity, velocity));
             take_acceleration(dot(acceleration, acceleration));
@@ -383,13 +380,14 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
         take_acceleration(dot(acceleration, acceleration));
     }
     let new_motion = vec4f(wide(new_velocity), own_motion.w);
-    if !FINISHES || control.next_dt == 0.0 {
-        kicked[constants.particle_count + i] = shift;
+    if control.next_dt == 0.0 {
+        density_rate[i] = shift.w;
     }
     if FINISHES {
         finish_fluid(i, own, new_motion, shift);
     } else {
-        kicked[i] = new_motion;
+        set_kicked(i, new_motion);
+        set_kicked(constants.particle_count + i, shift);
     }
 }
 
@@ -431,18 +429,18 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
 }
 
 fn share_of(i: u32, lane: u32) -> Sums {
-    let own = coordinate[reading_start() + i];
+    let own = coordinate_at(reading_start() + i);
     let group = u32(own.w);
     if group == GROUP_EMPTY || (HAS_SOLIDS && is_solid(group) && !wants_force(group)) {
         return no_sums();
     }
-    return sum_pairs(i, place_of(own), own_of(own, motion[reading_start() + i]), lane);
+    return sum_pairs(i, place_of(own), own_of(own, motion_at(reading_start() + i)), lane);
 }
 
 // By the particle's first thread, the workgroup's thread `local`.
 fn forces_on(i: u32, local: u32) {
-    let own = coordinate[reading_start() + i];
-    let own_motion = motion[reading_start() + i];
+    let own = coordinate_at(reading_start() + i);
+    let own_motion = motion_at(reading_start() + i);
     let group = u32(own.w);
     if is_fluid(group) {
         forces_on_fluid(i, own, own_motion, local);
@@ -460,11 +458,14 @@ fn forces_on(i: u32, local: u32) {
         leave(i, own, kept);
         return;
     }
-    kicked[i] = kept;
     if HAS_SOLIDS && is_solid(group) && wants_force(group) {
-        let acceleration = force_on_solid(i, own, own_motion, local);
+        let acceleration = wide(acceleration_of_solid(i, own, own_motion, local));
         if FORCES_READ {
-            kicked[i] = vec4f(wide(acceleration), linear_pressure(own_motion.w));
+            kept = vec4f(acceleration, linear_pressure(own_motion.w));
+        } else {
+            kept = vec4f(wide(contact_force(own)), own_motion.w);
+            set_kicked(constants.particle_count + i, vec4f(constants.particle_mass * acceleration, 0.0));
         }
     }
+    set_kicked(i, kept);
 }

@@ -2,12 +2,10 @@
 // and their way to where the solid moves. Fluid is kicked by forces.
 //
 // in:  coordinate, solid_slot, solid_state, local_place, control
-// out: kicked; its second half: the way, in quanta
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
+// out: kicked; its second copy: the way, in quanta
 @group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
-@group(0) @binding(BINDING_kicked) var<storage, read_write> kicked: array<vec4f>;
 @group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -18,7 +16,7 @@ fn kick(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgr
         return;
     }
     let i = solid_slot[particle];
-    let own = coordinate[side_start(control.last_side) + i];
+    let own = coordinate_at(side_start(control.last_side) + i);
     let group = u32(own.w);
     if solid_table[group - GROUP_SOLID].kind == SOLID_FIXED {
         return;
@@ -27,7 +25,7 @@ fn kick(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgr
     let start = local_place[particle].xyz;
     let arm = rotate(solid_state[NEW + n].orientation, start);
     let velocity = solid_state[NEW + n].velocity.xyz + cross(solid_state[NEW + n].angular_velocity.xyz, arm);
-    kicked[i] = vec4f(velocity, kicked[i].w);
+    set_kicked(i, vec4f(velocity, kicked_at(i).w));
     let way = way_to(solid_state[NOW + n], start, place_of(own)); // less than a support: exact in a float
-    kicked[constants.particle_count + i] = vec4f(wide(Vector(way)), 0.0);
+    set_kicked(constants.particle_count + i, vec4f(wide(Vector(way)), 0.0));
 }

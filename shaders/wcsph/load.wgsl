@@ -2,8 +2,6 @@
 //
 // in:  coordinate, motion (the state), control
 // out: coordinate, motion (the working copy)
-@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -11,7 +9,7 @@ fn load(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgr
         @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, workgroups, local);
     if i < constants.particle_count && control.running == 1u {
-        coordinate[side_start(control.side) + i] = coordinate[i];
-        motion[side_start(control.side) + i] = motion[i];
+        set_coordinate(side_start(control.side) + i, coordinate_at(i));
+        set_motion(side_start(control.side) + i, motion_at(i));
     }
 }

@@ -3,7 +3,6 @@
 //
 // in:  coordinate, sorted_id, cell_start, control
 // out: neighbor_list, solid_slot, id; cell_link's heads are emptied for the next count
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_neighbor_list) var<storage, read_write> neighbor_list: array<vec4u>;
@@ -120,7 +119,7 @@ fn note_particle(i: u32) {
         solid_slot[sorted_id[i] - constants.first_solid] = i;
     }
     let start = side_start(control.side);
-    let own = coordinate[start + i];
+    let own = coordinate_at(start + i);
     if LISTS && u32(own.w) != GROUP_EMPTY {
         make_list(i, own, start);
     }

@@ -3,8 +3,6 @@
 //
 // in:  coordinate, motion (the state), id, cell_link, cell_start, control
 // out: coordinate, motion (the working copy), sorted_id, control: how far particles may move from here
-@group(0) @binding(BINDING_coordinate) var<storage, read_write> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read> cell_link: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
@@ -30,7 +28,7 @@ fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
 
 fn move_particle(i: u32) {
     let next = constants.cell_count + 1u;
-    let at = coordinate[i];
+    let at = coordinate_at(i);
     let place = wrapped(place_of(at));
     let own = id[i];
     var slot: u32;
@@ -45,7 +43,7 @@ fn move_particle(i: u32) {
         }
     }
     let start = side_start(control.side);
-    coordinate[start + slot] = vec4i(wide_place(place), at.w);
-    motion[start + slot] = motion[i];
+    set_coordinate(start + slot, vec4i(wide_place(place), at.w));
+    set_motion(start + slot, motion_at(i));
     sorted_id[slot] = own;
 }

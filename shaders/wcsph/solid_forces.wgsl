@@ -1,8 +1,7 @@
 // Forces and torques on solids, summed over one block of particles per workgroup, always in the same order.
 //
-// in:  kicked (forces by slot), solid_slot, solid_state, local_place, blocks: solid, first id, last id + 1
+// in:  kicked (forces by slot; for a read accelerations), solid_slot, solid_state, local_place, blocks: solid, first id, last id + 1
 // out: solid_sum, four per block: force and torque of the fluid, of contact
-@group(0) @binding(BINDING_kicked) var<storage, read> kicked: array<vec4f>;
 @group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
@@ -22,8 +21,14 @@ fn solid_forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let particle = id - constants.first_solid;
         let arm = rotate(orientation, local_place[particle].xyz);
         let slot = solid_slot[particle];
-        let fluid = kicked[constants.particle_count + slot].xyz;
-        let contact = kicked[slot].xyz;
+        var fluid: vec3f;
+        var contact = vec3f(0.0);
+        if FORCES_READ {
+            fluid = constants.particle_mass * kicked_at(slot).xyz;
+        } else {
+            fluid = kicked_at(constants.particle_count + slot).xyz;
+            contact = kicked_at(slot).xyz;
+        }
         sums[0] += vec4f(fluid, 0.0);
         sums[1] += vec4f(cross(arm, fluid), 0.0);
         sums[2] += vec4f(contact, 0.0);

@@ -2,7 +2,6 @@
 //
 // in:  coordinate, id, control
 // out: vacancy: the place of the empty slot plus 1, or 0; then the blocks' counts, which emit leaves at 0
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_vacancy) var<storage, read_write> vacancy: array<atomic<u32>>;
 
@@ -18,7 +17,7 @@ fn vacancies(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
         if own >= constants.first_solid {
             continue;
         }
-        let is_empty = u32(coordinate[i].w) == GROUP_EMPTY;
+        let is_empty = u32(coordinate_at(i).w) == GROUP_EMPTY;
         atomicStore(&vacancy[own], select(0u, i + 1u, is_empty));
         if is_empty {
             atomicAdd(&vacancy[constants.first_solid + own / VACANCY_BLOCK], 1u);

@@ -4,8 +4,6 @@
 //
 // in:  coordinate, motion (of the fluid), cell_start, neighbor_list, solid_slot, solid_state, local_place, control
 // out: motion (of solids), control
-@group(0) @binding(BINDING_coordinate) var<storage, read> coordinate: array<vec4i>;
-@group(0) @binding(BINDING_motion) var<storage, read_write> motion: array<vec4f>;
 @group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
@@ -42,8 +40,9 @@ fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
 }
 
 // The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: vec4i, fluid: vec4f, offset: Vector) {
-    let w = select(0.0, kernel_shape(within_support(length(offset))), is_fluid(u32(other.w)));
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector) {
+    let fluid = other.motion;
+    let w = select(0.0, kernel_shape(within_support(length(offset))), is_fluid(u32(other.coordinate.w)));
     (*sums).weight += w;
     (*sums).pressure += w * pressure_of(fluid.w);
     (*sums).mean += w * vector_of(fluid);
@@ -71,14 +70,14 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
 
 fn share_of(particle: u32, lane: u32) -> Sums {
     let i = solid_slot[particle];
-    return sum_pairs(i, place_of(coordinate[reading_start() + i]), Own(0u), lane);
+    return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane);
 }
 
 // By the first thread of the solid particle, the workgroup's thread `local`.
 fn see_fluid(particle: u32, local: u32) {
     let i = solid_slot[particle];
     let start = reading_start();
-    let own = coordinate[start + i];
+    let own = coordinate_at(start + i);
     let sums = all_sums(i, place_of(own), Own(0u), local);
     let wall = wall_motion(u32(own.w) - GROUP_SOLID, particle);
     var seen = wall.velocity;
@@ -91,7 +90,7 @@ fn see_fluid(particle: u32, local: u32) {
     }
     let stiffness = constants.sound_speed * constants.sound_speed;
     let excess = (wall_pressure - parameters.background_pressure) / stiffness;
-    motion[start + i] = vec4f(seen, excess);
+    set_motion(start + i, vec4f(seen, excess));
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)

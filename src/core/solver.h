@@ -28,7 +28,7 @@ typedef struct WeirState {
 typedef struct WeirHealth {
     uint32_t bad_particles;  // faster than constants.speed_limit or not finite, counted over all steps
     uint64_t first_bad_step; // 1-based step that found the first of them; valid if bad_particles > 0
-    uint32_t first_bad_id;   // wcsph: the lowest id among that step's
+    uint32_t first_bad_id;   // wcsph: of one of that step's (CPU: the lowest id; GPU: the first by cells)
     float first_bad_position[3];
     // wcsph only (has_clock), as of the last step known:
     bool has_clock;

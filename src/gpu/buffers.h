@@ -4,12 +4,20 @@
 
 #include "gpu/report.h"
 
-enum { WEIR_MAX_BUFFERS = 32 };
+enum { WEIR_MAX_BUFFERS = 32, WEIR_MAX_COPIES = 3 };
 
 typedef struct WeirBufferInfo {
     const char *name, *label;
-    bool uniform; // bound to every pass as a uniform buffer, otherwise a storage buffer
+    bool uniform;        // bound to every pass as a uniform buffer, otherwise a storage buffer
+    const char *element; // WGSL type of its elements, if its copies may lie apart (copies.h); NULL: never
 } WeirBufferInfo;
+
+// A buffer may hold several copies of the particles, one after the other.
+typedef struct WeirBufferSize {
+    uint64_t bytes;  // of one copy
+    uint32_t copies; // 0 as 1
+    uint32_t slack;  // bytes behind the last copy that shaders may load, but not use
+} WeirBufferSize;
 
 // Cells of one workgroup of the scan: vectors of 4 cells for each thread.
 enum { WEIR_SCAN_VECTORS = 2, WEIR_SCAN_BLOCK = WEIR_WORKGROUP_SIZE * WEIR_SCAN_VECTORS * 4 };
@@ -18,16 +26,24 @@ typedef struct WeirBuffers {
     WeirGpu *gpu;
     const WeirBufferInfo *info;
     uint32_t count;
-    WGPUBuffer handle[WEIR_MAX_BUFFERS];
-    uint64_t size[WEIR_MAX_BUFFERS];
+    WeirBufferSize size[WEIR_MAX_BUFFERS];
+    // How many buffers of the device hold it: one, or, where the device's bindings are too small for all copies together,
+    // one for each (copies.h).
+    uint32_t parts[WEIR_MAX_BUFFERS];
+    WGPUBuffer handle[WEIR_MAX_BUFFERS][WEIR_MAX_COPIES]; // of each part
 } WeirBuffers;
 
 // Entries of the arrays per cell: whole blocks of the scan, and at least one more than `cells`, because cell_start
 // ends with the particle count.
 uint64_t weir_padded_cells(uint64_t cells);
-// Makes all of them in the sizes that `buffers` says, zeroed. WEIR_ERROR_MEMORY with a message if the device's limits
-// do not allow the sizes; faults of the device itself go to `report`.
-WeirStatus weir_buffers_create(WeirBuffers *buffers, const WeirConstants *constants, WeirReport *report,
-                               WeirMessage *message);
+// Takes `sizes`, by name, and finds the parts. WEIR_ERROR_MEMORY with a message if the device's limits do not allow them.
+WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
+                             const WeirConstants *constants, WeirMessage *message);
+// Makes all of them, zeroed; faults of the device go to `report`.
+void weir_buffers_create(WeirBuffers *buffers, WeirReport *report);
 void weir_buffers_destroy(WeirBuffers *buffers);
+// Bytes of all copies, and of one part.
+uint64_t weir_buffers_bytes(const WeirBuffers *buffers, uint32_t name);
+uint64_t weir_buffers_part_bytes(const WeirBuffers *buffers, uint32_t name);
+// Writes to the begin of the first copy.
 void weir_buffers_write(WeirBuffers *buffers, uint32_t name, const void *data, size_t size);

@@ -52,7 +52,7 @@ static void align_step(WeirMueller *solver)
 {
     uint32_t step = (uint32_t)solver->steps;
     if (solver->device_step == step) return;
-    wgpuQueueWriteBuffer(solver->common.gpu->queue, solver->common.buffers.handle[WEIR_MUELLER_health],
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, solver->common.buffers.handle[WEIR_MUELLER_health][0],
                          offsetof(WeirDeviceHealth, step), &step, sizeof step);
     solver->device_step = step;
 }
@@ -109,8 +109,9 @@ void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder)
     };
     const WeirBuffers *buffers = &solver->common.buffers;
     for (size_t n = 0; n < sizeof pairs / sizeof *pairs; ++n) {
-        wgpuCommandEncoderCopyBufferToBuffer(encoder, buffers->handle[pairs[n][0]], 0,
-                                             buffers->handle[pairs[n][1]], 0, buffers->size[pairs[n][0]]);
+        wgpuCommandEncoderCopyBufferToBuffer(encoder, buffers->handle[pairs[n][0]][0], 0,
+                                             buffers->handle[pairs[n][1]][0], 0,
+                                             buffers->size[pairs[n][0]].bytes);
     }
 }
 
@@ -200,12 +201,14 @@ static const WeirSolverInterface mueller_interface = {
 static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMessage *message)
 {
     WeirGpuSolver *common = &solver->common;
-    uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL], count = setup->constants.particle_count;
+    WeirBufferSize sizes[WEIR_MUELLER_BUFFER_TOTAL] = {{0}};
+    uint64_t pieces[WEIR_MUELLER_PIECES], count = setup->constants.particle_count;
     weir_mueller_sizes(&setup->constants, sizes);
+    weir_mueller_piece_sizes((uint32_t)count, pieces);
     common->constants = setup->constants;
-    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_MUELLER_block_sum] / 4);
+    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_MUELLER_block_sum].bytes / 4);
     WeirStatus status = weir_gpu_solver_make(common, &weir_mueller_method, sizes, scan_blocks,
-                                             WEIR_STATE_COPY_BYTES * count, message);
+                                             WEIR_MUELLER_PIECES, pieces, message);
     if (status != WEIR_OK) return status;
     solver->host = malloc(count * WEIR_HOST_FLOATS * sizeof *solver->host);
     if (!solver->host)
@@ -247,9 +250,9 @@ bool weir_mueller_gpu_particles(const WeirSolver *base, WeirGpuParticles *partic
     *particles = (WeirGpuParticles){
         .gpu = solver->gpu,
         .method = WEIR_METHOD_MUELLER,
-        .position = solver->buffers.handle[WEIR_MUELLER_position],
-        .velocity = solver->buffers.handle[WEIR_MUELLER_velocity],
-        .flow = solver->buffers.handle[WEIR_MUELLER_flow],
+        .position = solver->buffers.handle[WEIR_MUELLER_position][0],
+        .velocity = solver->buffers.handle[WEIR_MUELLER_velocity][0],
+        .flow = solver->buffers.handle[WEIR_MUELLER_flow][0],
         .count = solver->constants.particle_count,
     };
     return true;

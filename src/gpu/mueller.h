@@ -50,7 +50,7 @@ typedef enum WeirMuellerPass {
 // mueller_passes.c
 extern const WeirMethodInfo weir_mueller_method;
 // Bytes of each buffer.
-void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL]);
+void weir_mueller_sizes(const WeirConstants *constants, WeirBufferSize sizes[WEIR_MUELLER_BUFFER_TOTAL]);
 // Threads that share the neighbours of a particle: fewer particles do not fill a large device.
 uint32_t weir_mueller_lanes(uint32_t particle_count);
 // WGSL constants that follow from the parameters, and the passes that they need, by bit.
@@ -76,11 +76,12 @@ typedef struct WeirMueller {
 
 // mueller_read.c: what travels from the device to the host.
 void weir_mueller_take_health(WeirGpuSolver *solver, const void *found);
+enum { WEIR_MUELLER_PIECES = 4 };
+// Bytes of the pieces of the state's copy.
+void weir_mueller_piece_sizes(uint32_t particle_count, uint64_t sizes[WEIR_MUELLER_PIECES]);
 void weir_mueller_copy_state(WeirGpuSolver *solver);
-WeirStatus weir_mueller_take_state(WeirGpuSolver *solver, const void *copy, WeirState *state);
+WeirStatus weir_mueller_take_state(WeirGpuSolver *solver, WeirState *state);
 // Queues count to forces on the current state, which then is in the sorted order, as flow is.
 void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder);
-// Bytes of the copy that weir_mueller_copy_state() makes, per particle: position, flow, acceleration, id.
-enum { WEIR_STATE_COPY_BYTES = 8 + 16 + 8 + 4 };
 // Floats of the host's arrays per particle: position, velocity, acceleration, density, pressure.
 enum { WEIR_HOST_FLOATS = 2 + 2 + 2 + 1 + 1 };

@@ -29,17 +29,17 @@ static const WeirBufferInfo buffers[WEIR_MUELLER_BUFFER_TOTAL] = {
 #undef WEIR_BUFFER
 };
 
-void weir_mueller_sizes(const WeirConstants *constants, uint64_t sizes[WEIR_MUELLER_BUFFER_TOTAL])
+void weir_mueller_sizes(const WeirConstants *constants, WeirBufferSize sizes[WEIR_MUELLER_BUFFER_TOTAL])
 {
     uint64_t count = constants->particle_count, cells = weir_padded_cells(constants->cell_count);
 #define WEIR_BUFFER(name, per_particle, per_cell)                                                            \
-    sizes[WEIR_MUELLER_##name] = (uint64_t)(per_particle) * count + (uint64_t)(per_cell) * cells;
+    sizes[WEIR_MUELLER_##name].bytes = (uint64_t)(per_particle) * count + (uint64_t)(per_cell) * cells;
     WEIR_MUELLER_BUFFERS
 #undef WEIR_BUFFER
-    sizes[WEIR_MUELLER_parameters] = sizeof(WeirParameters);
-    sizes[WEIR_MUELLER_constants] = sizeof(WeirConstants);
-    sizes[WEIR_MUELLER_health] = sizeof(WeirDeviceHealth);
-    sizes[WEIR_MUELLER_block_sum] = 4 * (cells / WEIR_SCAN_BLOCK);
+    sizes[WEIR_MUELLER_parameters].bytes = sizeof(WeirParameters);
+    sizes[WEIR_MUELLER_constants].bytes = sizeof(WeirConstants);
+    sizes[WEIR_MUELLER_health].bytes = sizeof(WeirDeviceHealth);
+    sizes[WEIR_MUELLER_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
 }
 
 #define BIT(name) (1u << WEIR_MUELLER_##name)

@@ -19,32 +19,40 @@ void weir_mueller_take_health(WeirGpuSolver *common, const void *copy)
     common->health.first_bad_step = widen_step((WeirMueller *)common, found->first_bad_step);
 }
 
-// The pieces of the copy, one after the other: position, flow, acceleration, id, all in the sorted order.
+// The pieces of the copy, all in the sorted order.
+static const struct Piece {
+    WeirMuellerBuffer name;
+    uint32_t per_particle; // bytes
+} pieces[WEIR_MUELLER_PIECES] = {{WEIR_MUELLER_sorted_position, 8},
+                                 {WEIR_MUELLER_flow, 16},
+                                 {WEIR_MUELLER_acceleration, 8},
+                                 {WEIR_MUELLER_sorted_id, 4}};
+
+void weir_mueller_piece_sizes(uint32_t particle_count, uint64_t sizes[WEIR_MUELLER_PIECES])
+{
+    for (int n = 0; n < WEIR_MUELLER_PIECES; ++n)
+        sizes[n] = (uint64_t)pieces[n].per_particle * particle_count;
+}
+
 void weir_mueller_copy_state(WeirGpuSolver *common)
 {
-    static const WeirMuellerBuffer names[] = {WEIR_MUELLER_sorted_position, WEIR_MUELLER_flow,
-                                              WEIR_MUELLER_acceleration, WEIR_MUELLER_sorted_id};
     WeirMueller *solver = (WeirMueller *)common;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
     weir_mueller_evaluate(solver, encoder);
-    uint64_t offset = 0;
-    for (size_t n = 0; n < sizeof names / sizeof *names; ++n) {
-        uint64_t size = common->buffers.size[names[n]];
-        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[names[n]], 0, offset, size);
-        offset += size;
-    }
+    for (uint32_t n = 0; n < WEIR_MUELLER_PIECES; ++n)
+        weir_readback_copy(common->state_copy, encoder, n, common->buffers.handle[pieces[n].name][0], 0);
     weir_gpu_submit(common->gpu, encoder, "read");
     solver->state_copy_step = solver->steps;
 }
 
-WeirStatus weir_mueller_take_state(WeirGpuSolver *common, const void *copy, WeirState *state)
+WeirStatus weir_mueller_take_state(WeirGpuSolver *common, WeirState *state)
 {
     const WeirMueller *solver = (const WeirMueller *)common;
     uint32_t count = common->constants.particle_count;
-    const float *from_position = copy;
-    const float *from_flow = from_position + 2 * (size_t)count;
-    const float *from_acceleration = from_flow + 4 * (size_t)count;
-    const uint32_t *from_id = (const uint32_t *)(from_acceleration + 2 * (size_t)count);
+    const float *from_position = weir_readback_data(common->state_copy, 0);
+    const float *from_flow = weir_readback_data(common->state_copy, 1);
+    const float *from_acceleration = weir_readback_data(common->state_copy, 2);
+    const uint32_t *from_id = weir_readback_data(common->state_copy, 3);
     float *position = solver->host, *velocity = position + 2 * (size_t)count;
     float *acceleration = velocity + 2 * (size_t)count, *density = acceleration + 2 * (size_t)count;
     float *pressure = density + count;

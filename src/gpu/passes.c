@@ -12,6 +12,29 @@ uint32_t weir_pass_storage_buffers(const WeirPassInfo *pass)
     return count;
 }
 
+// Storage buffers that a pass binds, with all parts.
+static uint32_t bound_buffers(const WeirPasses *passes, uint32_t pass)
+{
+    const WeirPassInfo *info = &passes->method->passes[pass];
+    uint32_t count = 0;
+    for (uint32_t name = 0; name < passes->method->buffer_count; ++name)
+        if ((info->reads | info->writes) >> name & 1) count += passes->buffers->parts[name];
+    return count;
+}
+
+WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message)
+{
+    uint32_t worst = 0, most = passes->gpu->limits.maxStorageBuffersPerShaderStage;
+    for (uint32_t pass = 1; pass < passes->method->pass_count; ++pass)
+        if (bound_buffers(passes, pass) > bound_buffers(passes, worst)) worst = pass;
+    uint32_t count = bound_buffers(passes, worst);
+    if (count <= most) return WEIR_OK;
+    return weir_fail(message, WEIR_ERROR_MEMORY,
+                     "so many particles need %u storage buffers in the GPU's %s, but %s allows %u; "
+                     "raise parameters.particle_spacing",
+                     count, passes->method->passes[worst].label, passes->gpu->name, most);
+}
+
 // Constants that C decides: binding numbers by name, sizes, and what is chosen, so that no pass branches on it.
 static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo *method, const char *settings,
                               uint32_t scan_blocks)
@@ -69,16 +92,21 @@ static WGPUBufferBindingType binding_type(const WeirPasses *passes, uint32_t pas
 
 static void make_bind_group(WeirPasses *passes, uint32_t pass)
 {
-    WGPUBindGroupLayoutEntry layout[WEIR_MAX_BUFFERS] = {0};
-    WGPUBindGroupEntry entries[WEIR_MAX_BUFFERS] = {0};
+    WGPUBindGroupLayoutEntry layout[WEIR_MAX_BUFFERS * WEIR_MAX_COPIES] = {0};
+    WGPUBindGroupEntry entries[WEIR_MAX_BUFFERS * WEIR_MAX_COPIES] = {0};
+    const WeirBuffers *buffers = passes->buffers;
     size_t count = 0;
     for (uint32_t name = 0; name < passes->method->buffer_count; ++name) {
         WGPUBufferBindingType type = binding_type(passes, pass, name);
         if (type == WGPUBufferBindingType_BindingNotUsed) continue;
-        layout[count] = (WGPUBindGroupLayoutEntry){
-            .binding = name, .visibility = WGPUShaderStage_Compute, .buffer.type = type};
-        entries[count++] = (WGPUBindGroupEntry){
-            .binding = name, .buffer = passes->buffers->handle[name], .size = passes->buffers->size[name]};
+        for (uint32_t part = 0; part < buffers->parts[name]; ++part) {
+            uint32_t binding = name + part * WEIR_MAX_BUFFERS;
+            layout[count] = (WGPUBindGroupLayoutEntry){
+                .binding = binding, .visibility = WGPUShaderStage_Compute, .buffer.type = type};
+            entries[count++] = (WGPUBindGroupEntry){.binding = binding,
+                                                    .buffer = buffers->handle[name][part],
+                                                    .size = weir_buffers_part_bytes(buffers, name)};
+        }
     }
     WGPUStringView label = weir_gpu_text(passes->method->passes[pass].label);
     passes->layout[pass] = wgpuDeviceCreateBindGroupLayout(
@@ -116,11 +144,19 @@ WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const cha
 
 static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pass, WeirReport *report)
 {
-    const WeirPassInfo *info = &passes->method->passes[pass];
-    char settings[2 * WEIR_SETTINGS_LENGTH];
-    snprintf(settings, sizeof settings, "%s%s", variant->settings, info->settings ? info->settings : "");
-    char *source = weir_pass_source(passes->method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS],
-                                    info->parts, info->source);
+    const WeirMethodInfo *method = passes->method;
+    const WeirPassInfo *info = &method->passes[pass];
+    size_t capacity = 2 * WEIR_SETTINGS_LENGTH + weir_copies_declare(passes->buffers, method->functions,
+                                                                     info->reads, info->writes, NULL, 0);
+    char *settings = malloc(capacity);
+    if (!settings) return false;
+    size_t length =
+        (size_t)snprintf(settings, capacity, "%s%s", variant->settings, info->settings ? info->settings : "");
+    weir_copies_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
+                        capacity - length);
+    char *source =
+        weir_pass_source(method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS], info->parts, info->source);
+    free(settings);
     if (!source) return false;
     variant->pipeline[pass] =
         weir_pass_pipeline(passes->gpu, info->name, info->label, source, passes->layout[pass], report);

@@ -2,7 +2,7 @@
 // passes and buffers in two tables (mueller_passes.c, wcsph_passes.c).
 #pragma once
 
-#include "gpu/buffers.h"
+#include "gpu/copies.h"
 
 enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 2048 };
 
@@ -39,7 +39,8 @@ typedef struct WeirMethodInfo {
     const WeirBufferInfo *buffers;
     const WeirPassInfo *passes;
     uint32_t buffer_count, pass_count;
-    const char *const *parts; // WGSL before each pass's own, ended by NULL
+    const char *const *parts;          // WGSL before each pass's own, ended by NULL
+    const WeirCopyFunction *functions; // of copies of the particles; NULL for none
 } WeirMethodInfo;
 
 // Pipelines for one choice of settings.
@@ -59,8 +60,10 @@ typedef struct WeirPasses {
     uint32_t current, made; // the variant that runs; variants made so far
 } WeirPasses;
 
-// Storage buffers that a pass binds: WebGPU promises no more than 8.
+// Storage buffers that a pass binds, each in one part: WebGPU promises no more than 8.
 uint32_t weir_pass_storage_buffers(const WeirPassInfo *pass);
+// WEIR_ERROR_MEMORY with a message if the device allows a pass fewer than the parts of its buffers are.
+WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message);
 // Makes what the passes in the bits of `needed` lack under `settings`, which then are the ones that run: WGSL
 // constants of at most WEIR_SETTINGS_LENGTH - 1 characters. Faults go to `report`.
 WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,

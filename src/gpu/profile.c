@@ -30,7 +30,7 @@ WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report)
                                                                         .count = QUERIES});
     profile->resolved = weir_gpu_create_buffer(
         gpu, "profile", WGPUBufferUsage_QueryResolve | WGPUBufferUsage_CopySrc, RESOLVE_SIZE);
-    profile->readback = weir_readback_create(gpu, "profile readback", RESOLVE_SIZE);
+    profile->readback = weir_readback_create(gpu, "profile readback", 1, &(uint64_t){RESOLVE_SIZE});
     weir_report_end(report, "profile");
     profile->nanoseconds = weir_platform_timestamp_period(gpu);
     if (profile->readback) return profile;
@@ -78,7 +78,7 @@ void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder)
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder)
 {
     wgpuCommandEncoderResolveQuerySet(encoder, profile->queries, 0, 2 * profile->count, profile->resolved, 0);
-    weir_readback_copy(profile->readback, encoder, profile->resolved, 0, 0, RESOLVE_SIZE);
+    weir_readback_copy(profile->readback, encoder, 0, profile->resolved, 0);
 }
 
 void weir_profile_submitted(WeirProfile *profile)
@@ -89,7 +89,7 @@ void weir_profile_submitted(WeirProfile *profile)
 void weir_profile_poll(WeirProfile *profile)
 {
     if (!profile || weir_readback_state(profile->readback) != WEIR_READBACK_READY) return;
-    const uint64_t *ticks = weir_readback_data(profile->readback);
+    const uint64_t *ticks = weir_readback_data(profile->readback, 0);
     profile->time_count = ticks ? profile->count : 0;
     for (uint32_t n = 0; n < profile->time_count; ++n) {
         uint64_t begin = ticks[2 * n], end = ticks[2 * n + 1];

@@ -2,61 +2,83 @@
 
 #include <stdlib.h>
 
-struct WeirReadback {
-    WeirGpu *gpu;
+typedef struct Piece {
     WGPUBuffer buffer;
     uint64_t size;
-    WeirReadbackState state;
     bool mapped;
-    bool orphaned; // nobody but the callback knows this readback any more
+} Piece;
+
+struct WeirReadback {
+    WeirGpu *gpu;
+    Piece pieces[WEIR_MAX_PIECES];
+    uint32_t count, waiting; // pieces; those that are on their way
+    WeirReadbackState state;
+    bool failed;   // a piece did not arrive
+    bool orphaned; // nobody but the callbacks knows this readback any more
 };
 
-WeirReadback *weir_readback_create(WeirGpu *gpu, const char *label, uint64_t size)
+WeirReadback *weir_readback_create(WeirGpu *gpu, const char *label, uint32_t pieces, const uint64_t *sizes)
 {
     WeirReadback *readback = calloc(1, sizeof *readback);
     if (!readback) return NULL;
     readback->gpu = gpu;
-    readback->size = size;
-    readback->buffer =
-        weir_gpu_create_buffer(gpu, label, WGPUBufferUsage_MapRead | WGPUBufferUsage_CopyDst, size);
+    readback->count = pieces;
+    for (uint32_t n = 0; n < pieces; ++n) {
+        Piece *piece = &readback->pieces[n];
+        piece->size = sizes[n];
+        piece->buffer =
+            weir_gpu_create_buffer(gpu, label, WGPUBufferUsage_MapRead | WGPUBufferUsage_CopyDst, sizes[n]);
+    }
     return readback;
 }
 
 void weir_readback_destroy(WeirReadback *readback)
 {
     if (!readback) return;
-    // Destroying a buffer cancels its mapping; the callback may come now or later.
+    // Destroying a buffer cancels its mapping; the callback may come now or later. This one counts too, so that
+    // the last of them frees.
     readback->orphaned = true;
-    bool pending = readback->state == WEIR_READBACK_PENDING;
-    weir_gpu_destroy_buffer(readback->gpu, readback->buffer, readback->size);
-    if (!pending) free(readback);
+    ++readback->waiting;
+    for (uint32_t n = 0; n < readback->count; ++n)
+        weir_gpu_destroy_buffer(readback->gpu, readback->pieces[n].buffer, readback->pieces[n].size);
+    if (--readback->waiting == 0) free(readback);
 }
 
-void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, WGPUBuffer from,
-                        uint64_t from_offset, uint64_t offset, uint64_t size)
+void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, uint32_t piece, WGPUBuffer from,
+                        uint64_t from_offset)
 {
-    wgpuCommandEncoderCopyBufferToBuffer(encoder, from, from_offset, readback->buffer, offset, size);
+    const Piece *to = &readback->pieces[piece];
+    wgpuCommandEncoderCopyBufferToBuffer(encoder, from, from_offset, to->buffer, 0, to->size);
 }
 
 static void on_mapped(WGPUMapAsyncStatus status, WGPUStringView text, void *userdata1, void *userdata2)
 {
-    (void)text, (void)userdata2; // a failure is reported by the device itself
+    (void)text; // a failure is reported by the device itself
     WeirReadback *readback = userdata1;
+    Piece *piece = userdata2;
+    --readback->waiting;
     if (readback->orphaned) {
-        free(readback);
+        if (readback->waiting == 0) free(readback);
         return;
     }
-    readback->mapped = status == WGPUMapAsyncStatus_Success;
-    readback->state = WEIR_READBACK_READY;
+    piece->mapped = status == WGPUMapAsyncStatus_Success;
+    readback->failed = readback->failed || !piece->mapped;
+    if (readback->waiting == 0) readback->state = WEIR_READBACK_READY;
 }
 
 void weir_readback_start(WeirReadback *readback)
 {
     readback->state = WEIR_READBACK_PENDING;
-    wgpuBufferMapAsync(readback->buffer, WGPUMapMode_Read, 0, readback->size,
-                       (WGPUBufferMapCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
-                                                   .callback = on_mapped,
-                                                   .userdata1 = readback});
+    readback->failed = false;
+    readback->waiting = readback->count;
+    for (uint32_t n = 0; n < readback->count; ++n) {
+        Piece *piece = &readback->pieces[n];
+        wgpuBufferMapAsync(piece->buffer, WGPUMapMode_Read, 0, piece->size,
+                           (WGPUBufferMapCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
+                                                       .callback = on_mapped,
+                                                       .userdata1 = readback,
+                                                       .userdata2 = piece});
+    }
 }
 
 WeirReadbackState weir_readback_state(const WeirReadback *readback)
@@ -64,15 +86,17 @@ WeirReadbackState weir_readback_state(const WeirReadback *readback)
     return readback->state;
 }
 
-const void *weir_readback_data(const WeirReadback *readback)
+const void *weir_readback_data(const WeirReadback *readback, uint32_t piece)
 {
-    if (!readback->mapped) return NULL;
-    return wgpuBufferGetConstMappedRange(readback->buffer, 0, readback->size);
+    const Piece *from = &readback->pieces[piece];
+    return readback->failed ? NULL : wgpuBufferGetConstMappedRange(from->buffer, 0, from->size);
 }
 
 void weir_readback_finish(WeirReadback *readback)
 {
-    if (readback->mapped) wgpuBufferUnmap(readback->buffer);
-    readback->mapped = false;
+    for (uint32_t n = 0; n < readback->count; ++n) {
+        if (readback->pieces[n].mapped) wgpuBufferUnmap(readback->pieces[n].buffer);
+        readback->pieces[n].mapped = false;
+    }
     readback->state = WEIR_READBACK_IDLE;
 }

@@ -8,43 +8,45 @@ enum { MAX_STEPS_PER_SUBMIT = 64 };
 
 // ---- Making ----
 
-static WeirStatus make_copies(WeirGpuSolver *solver, uint64_t state_size, WeirMessage *message)
+static WeirStatus make_copies(WeirGpuSolver *solver, uint32_t pieces, const uint64_t *sizes,
+                              WeirMessage *message)
 {
-    uint64_t count = solver->constants.particle_count;
-    if (state_size > solver->gpu->limits.maxBufferSize)
+    unsigned long long count = solver->constants.particle_count, most = solver->gpu->limits.maxBufferSize;
+    for (uint32_t n = 0; n < pieces; ++n) {
+        if (sizes[n] <= most) continue;
         return weir_fail(
             message, WEIR_ERROR_MEMORY,
             "reading %llu particles needs a GPU buffer of %llu MiB, but %s allows %llu MiB; raise "
             "parameters.particle_spacing",
-            (unsigned long long)count, (unsigned long long)(state_size >> 20), solver->gpu->name,
-            (unsigned long long)(solver->gpu->limits.maxBufferSize >> 20));
+            count, (unsigned long long)(sizes[n] >> 20), solver->gpu->name, most >> 20);
+    }
     weir_report_begin(solver->report);
-    solver->health_copy = weir_readback_create(solver->gpu, "health readback", solver->health_size);
-    solver->state_copy = weir_readback_create(solver->gpu, "state readback", state_size);
+    solver->health_copy = weir_readback_create(solver->gpu, "health readback", 1, &solver->health_size);
+    solver->state_copy = weir_readback_create(solver->gpu, "state readback", pieces, sizes);
     weir_report_end(solver->report, "buffer for reading the state");
     if (!solver->health_copy || !solver->state_copy)
-        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
-                         (unsigned long long)count);
+        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles", count);
     return WEIR_OK;
 }
 
-WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method, const uint64_t *sizes,
-                                uint32_t scan_blocks, uint64_t state_size, WeirMessage *message)
+WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method,
+                                const WeirBufferSize *sizes, uint32_t scan_blocks, uint32_t pieces,
+                                const uint64_t *piece_sizes, WeirMessage *message)
 {
     WeirGpu *gpu = solver->gpu;
     solver->report = weir_report_create(gpu);
     if (!solver->report) return weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
     solver->buffers = (WeirBuffers){.gpu = gpu, .info = method->buffers, .count = method->buffer_count};
-    for (uint32_t name = 0; name < method->buffer_count; ++name) {
-        solver->buffers.size[name] = sizes[name];
-        solver->base.memory += sizes[name];
-    }
-    WeirStatus status = weir_buffers_create(&solver->buffers, &solver->constants, solver->report, message);
+    solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
+    WeirStatus status = weir_buffers_plan(&solver->buffers, sizes, &solver->constants, message);
+    if (status == WEIR_OK) status = weir_passes_check(&solver->passes, message);
     if (status != WEIR_OK) return status;
-    status = make_copies(solver, state_size, message);
+    weir_buffers_create(&solver->buffers, solver->report);
+    for (uint32_t name = 0; name < method->buffer_count; ++name)
+        solver->base.memory += weir_buffers_bytes(&solver->buffers, name);
+    status = make_copies(solver, pieces, piece_sizes, message);
     if (status != WEIR_OK) return status;
     uint32_t particles = solver->constants.particle_count;
-    solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
     solver->passes.groups[WEIR_ITEMS_PARTICLES] = weir_workgroups(particles);
     solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = scan_blocks;
     solver->passes.groups[WEIR_ITEMS_ONE] = 1;
@@ -134,7 +136,7 @@ uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs)
 static void poll_health(WeirGpuSolver *solver)
 {
     if (weir_readback_state(solver->health_copy) == WEIR_READBACK_READY) {
-        const void *found = weir_readback_data(solver->health_copy);
+        const void *found = weir_readback_data(solver->health_copy, 0);
         solver->health_known_work = solver->health_work;
         if (solver->health_work >= solver->state_work) solver->take_health(solver, found);
         weir_readback_finish(solver->health_copy);
@@ -142,8 +144,7 @@ static void poll_health(WeirGpuSolver *solver)
     bool idle = weir_readback_state(solver->health_copy) == WEIR_READBACK_IDLE;
     if (!idle || solver->health_known_work == solver->work) return;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(solver, "health");
-    weir_readback_copy(solver->health_copy, encoder, solver->buffers.handle[solver->health_buffer], 0, 0,
-                       solver->health_size);
+    weir_readback_copy(solver->health_copy, encoder, 0, solver->buffers.handle[solver->health_buffer][0], 0);
     weir_gpu_submit(solver->gpu, encoder, "health");
     weir_readback_start(solver->health_copy);
     solver->health_work = solver->work;
@@ -194,9 +195,9 @@ WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
             if (!weir_platform_wait(solver->gpu)) return WEIR_PENDING;
             break;
         case WEIR_READBACK_READY: {
-            const void *copy = weir_readback_data(solver->state_copy);
+            const void *copy = weir_readback_data(solver->state_copy, 0);
             bool stale = solver->state_copy_stale;
-            if (copy && !stale) status = solver->take_state(solver, copy, state);
+            if (copy && !stale) status = solver->take_state(solver, state);
             weir_readback_finish(solver->state_copy);
             if (!copy) return weir_fail(&base->message, WEIR_ERROR_DEVICE, "read: the GPU's copy failed");
             if (!stale && status != WEIR_PENDING) return status;

@@ -39,14 +39,15 @@ struct WeirGpuSolver {
     WeirReadback *state_copy;
     bool state_copy_stale;                     // the state was replaced since it was queued
     void (*copy_state)(WeirGpuSolver *solver); // queues commands that fill state_copy, and submits them
-    // Turns a copy into arrays on the host; WEIR_PENDING: another copy is needed.
-    WeirStatus (*take_state)(WeirGpuSolver *solver, const void *copy, WeirState *state);
+    // Turns what state_copy holds into arrays on the host; WEIR_PENDING: another copy is needed.
+    WeirStatus (*take_state)(WeirGpuSolver *solver, WeirState *state);
 };
 
-// Makes report, buffers (`sizes` by buffer), passes, profile and copies of the given sizes. What was made before a
-// failure is freed by weir_gpu_solver_destroy().
-WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method, const uint64_t *sizes,
-                                uint32_t scan_blocks, uint64_t state_size, WeirMessage *message);
+// Makes report, buffers (`sizes` by buffer), passes, profile and the copies' readbacks; that of the state has `pieces` of
+// `piece_sizes`. What was made before a failure is freed by weir_gpu_solver_destroy().
+WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *method,
+                                const WeirBufferSize *sizes, uint32_t scan_blocks, uint32_t pieces,
+                                const uint64_t *piece_sizes, WeirMessage *message);
 // Frees all but the solver itself.
 void weir_gpu_solver_destroy(WeirGpuSolver *solver);
 // WEIR_OK, or the first error of device or solver, with its message in base.message.

@@ -136,7 +136,7 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     if (status != WEIR_OK || steps == 0) return status;
     WeirWcsphControl request = {.steps_left = steps};
     write_ticks(until, request.until);
-    wgpuQueueWriteBuffer(common->gpu->queue, common->buffers.handle[WEIR_WCSPH_control], 0, &request,
+    wgpuQueueWriteBuffer(common->gpu->queue, common->buffers.handle[WEIR_WCSPH_control][0], 0, &request,
                          offsetof(WeirWcsphControl, running));
     weir_profile_poll(common->profile);
     bool measured = weir_profile_ready(common->profile);
@@ -196,7 +196,7 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
 // When the emitters' layers are due, and when the first of them is.
 static void write_schedule(WeirWcsphGpu *solver, uint32_t next_due[2])
 {
-    WGPUBuffer schedule = solver->common.buffers.handle[WEIR_WCSPH_schedule];
+    WGPUBuffer schedule = solver->common.buffers.handle[WEIR_WCSPH_schedule][0];
     next_due[0] = next_due[1] = UINT32_MAX; // never
     for (uint32_t n = 0; n < solver->traits.emitter_count; ++n) {
         uint32_t due[4];
@@ -211,7 +211,7 @@ static void write_schedule(WeirWcsphGpu *solver, uint32_t next_due[2])
 
 static void write_control(WeirWcsphGpu *solver)
 {
-    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_id = UINT32_MAX, .starting = 1, .sorting = 1};
+    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_slot = UINT32_MAX, .starting = 1, .sorting = 1};
     control.next_allowance = solver->traits.least_allowance;
     write_schedule(solver, control.next_due);
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
@@ -274,12 +274,14 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
                          setup->constants.particle_count);
     weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, common->gpu);
     WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &setup->constants);
-    uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL];
+    WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL] = {{0}};
     weir_gpu_wcsph_sizes(&cells, &solver->world, &solver->traits, sizes);
-    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_WCSPH_block_sum] / 4);
-    uint64_t copy_size = weir_gpu_wcsph_copy_size(sizes, setup->constants.particle_count);
+    uint32_t scan_blocks = (uint32_t)(sizes[WEIR_WCSPH_block_sum].bytes / 4);
+    uint64_t pieces[WEIR_WCSPH_PIECES];
+    weir_gpu_wcsph_piece_sizes(sizes, setup->constants.particle_count, pieces);
     const WeirMethodInfo *method = weir_gpu_wcsph_method(setup->constants.dimension);
-    WeirStatus status = weir_gpu_solver_make(common, method, sizes, scan_blocks, copy_size, message);
+    WeirStatus status =
+        weir_gpu_solver_make(common, method, sizes, scan_blocks, WEIR_WCSPH_PIECES, pieces, message);
     if (status != WEIR_OK) return status;
     uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
     common->passes.groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
@@ -325,9 +327,9 @@ bool weir_wcsph_gpu_particles(const WeirSolver *base, WeirGpuParticles *particle
     *particles = (WeirGpuParticles){
         .gpu = common->gpu,
         .method = WEIR_METHOD_WCSPH,
-        .coordinate = common->buffers.handle[WEIR_WCSPH_coordinate],
-        .motion = common->buffers.handle[WEIR_WCSPH_motion],
-        .solids = solver->traits.solid_count > 0 ? common->buffers.handle[WEIR_WCSPH_solid_state] : NULL,
+        .coordinate = common->buffers.handle[WEIR_WCSPH_coordinate][0],
+        .motion = common->buffers.handle[WEIR_WCSPH_motion][0],
+        .solids = solver->traits.solid_count > 0 ? common->buffers.handle[WEIR_WCSPH_solid_state][0] : NULL,
         .count = common->constants.particle_count,
         .solid_count = solver->traits.solid_count,
     };

@@ -19,10 +19,11 @@
 
 #include <assert.h>
 
-// WEIR_BUFFER(name): storage buffers. Sizes: weir_gpu_wcsph_sizes().
+// WEIR_BUFFER(name): storage buffers. WEIR_COPIES(name, element): those with several copies of the particles (buffers.h).
+// Sizes: weir_gpu_wcsph_sizes().
 #define WEIR_WCSPH_BUFFERS                                                                                   \
-    WEIR_BUFFER(coordinate)                                                                                  \
-    WEIR_BUFFER(motion)                                                                                      \
+    WEIR_COPIES(coordinate, "vec4i")                                                                         \
+    WEIR_COPIES(motion, "vec4f")                                                                             \
     WEIR_BUFFER(id)                                                                                          \
     WEIR_BUFFER(cell_count)                                                                                  \
     WEIR_BUFFER(cell_link)                                                                                   \
@@ -31,7 +32,8 @@
     WEIR_BUFFER(neighbor_list)                                                                               \
     WEIR_BUFFER(solid_slot)                                                                                  \
     WEIR_BUFFER(sorted_id)                                                                                   \
-    WEIR_BUFFER(kicked)                                                                                      \
+    WEIR_COPIES(kicked, "vec4f")                                                                             \
+    WEIR_BUFFER(density_rate)                                                                                \
     WEIR_BUFFER(solid_state)                                                                                 \
     WEIR_BUFFER(local_place)                                                                                 \
     WEIR_BUFFER(blocks)                                                                                      \
@@ -48,9 +50,11 @@ typedef enum WeirWcsphBuffer {
     WEIR_WCSPH_solid_table,
     WEIR_WCSPH_emitters,
     WEIR_WCSPH_drains,
-#define WEIR_BUFFER(name) WEIR_WCSPH_##name,
+#define WEIR_COPIES(name, element) WEIR_WCSPH_##name,
+#define WEIR_BUFFER(name)          WEIR_WCSPH_##name,
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
+#undef WEIR_COPIES
         WEIR_WCSPH_BUFFER_TOTAL
 } WeirWcsphBuffer;
 
@@ -107,15 +111,15 @@ typedef struct WeirWcsphControl {
     uint32_t steps_left, running, stepping, steps;
     uint32_t time[2], began[2];
     float dt, next_dt, free_dt, max_speed;
-    uint32_t speed_bits, acceleration_bits, error_bits;
-    uint32_t bad_particles, bad_step, bad_id; // bad_step UINT32_MAX: none
+    uint32_t bad_id, starting;
     int32_t bad_place[4];
-    uint32_t starting, drained, lost, emitted, restored;
-    uint32_t side, last_side, sorting, stale;
-    uint32_t travelled, reached, sorted_at, moved_finish[2], moved_drift[2], allowance, next_allowance;
-    uint32_t next_due[2];
+    uint32_t emitted, restored, side, last_side, sorting, stale;
+    uint32_t travelled, reached, sorted_at, allowance, next_due[2], next_allowance, unused[31];
+    uint32_t speed_bits, acceleration_bits, error_bits;
+    uint32_t bad_particles, bad_step, bad_slot; // bad_step UINT32_MAX: none
+    uint32_t drained, lost, moved_finish[2], moved_drift[2];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 176, "the layout of the shaders' struct");
+static_assert(sizeof(WeirWcsphControl) == 304, "the layout of the shaders' struct");
 
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
@@ -139,7 +143,7 @@ WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirCons
 const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension);
 // Bytes of each buffer.
 void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world,
-                          const WeirWcsphTraits *traits, uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL]);
+                          const WeirWcsphTraits *traits, WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL]);
 // WGSL constants, and the passes needed, by bit.
 uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,
                                  const WeirWcsphTraits *traits, char settings[WEIR_SETTINGS_LENGTH]);
@@ -180,8 +184,10 @@ typedef enum WeirEvaluation {
 void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how);
 
 // wcsph_read.c
-// Bytes of the copy of a state.
-uint64_t weir_gpu_wcsph_copy_size(const uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count);
+enum { WEIR_WCSPH_PIECES = 7 };
+// Bytes of the pieces of a state's copy.
+void weir_gpu_wcsph_piece_sizes(const WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count,
+                                uint64_t piece_sizes[WEIR_WCSPH_PIECES]);
 void weir_gpu_wcsph_take_health(WeirGpuSolver *solver, const void *found);
 void weir_gpu_wcsph_copy_state(WeirGpuSolver *solver);
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, const void *copy, WeirState *state);
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, WeirState *state);

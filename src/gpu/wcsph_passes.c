@@ -46,22 +46,40 @@ SHADER(wcsph_first_step)
 SHADER(wcsph_health)
 
 static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
-    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true},
-    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true},
-    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true},
-    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true},
-    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true},
-#define WEIR_BUFFER(name) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false},
+    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, NULL},
+    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true, NULL},
+    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, NULL},
+    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, NULL},
+    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, NULL},
+#define WEIR_COPIES(name, element) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, element},
+#define WEIR_BUFFER(name)          WEIR_COPIES(name, NULL)
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
+#undef WEIR_COPIES
 };
 
 #define BIT(name) (1u << WEIR_WCSPH_##name)
 enum { PARTICLES = BIT(coordinate) | BIT(motion) };
 enum { SEARCH = BIT(cell_start) | BIT(neighbor_list) };
-enum { FORCES_READS = SEARCH | BIT(solid_state) | BIT(id) };
-enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(control) };
+enum { FORCES_READS = SEARCH | BIT(solid_state) };
+enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(density_rate) | BIT(control) };
 enum { SUM_READS = BIT(kicked) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
+
+// How shaders reach the particles (copies.h). Eight at once, or place and motion together, take one choice of the copy.
+static const WeirCopyFunction functions[] = {
+    {"coordinate_at(k: u32) -> vec4i", "return $coordinate[#];", BIT(coordinate), 0},
+    {"coordinate_block(k: u32) -> array<vec4i, 8>",
+     "return array($coordinate[#], $coordinate[# + 1u], $coordinate[# + 2u], $coordinate[# + 3u], "
+     "$coordinate[# + 4u], $coordinate[# + 5u], $coordinate[# + 6u], $coordinate[# + 7u]);",
+     BIT(coordinate), 0},
+    {"motion_at(k: u32) -> vec4f", "return $motion[#];", BIT(motion), 0},
+    {"particle_at(k: u32) -> Particle", "return Particle($coordinate[#], $motion[#]);", PARTICLES, 0},
+    {"kicked_at(k: u32) -> vec4f", "return $kicked[#];", BIT(kicked), 0},
+    {"set_coordinate(k: u32, to: vec4i)", "$coordinate[#] = to; return;", 0, BIT(coordinate)},
+    {"set_motion(k: u32, to: vec4f)", "$motion[#] = to; return;", 0, BIT(motion)},
+    {"set_kicked(k: u32, to: vec4f)", "$kicked[#] = to; return;", 0, BIT(kicked)},
+    {NULL, NULL, 0, 0},
+};
 
 static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
 static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
@@ -90,7 +108,7 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, bodies_part, BIT(motion_rows), BIT(control) | BIT(solid_state),
                           WEIR_ITEMS_ONE},
     [WEIR_WCSPH_DRIFT] = {WCSPH(drift), NULL, drift_part,
-                          BIT(id) | BIT(kicked) | BIT(solid_state) | BIT(local_place),
+                          BIT(id) | BIT(density_rate) | BIT(solid_state) | BIT(local_place),
                           BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id),
                               BIT(vacancy) | BIT(control), WEIR_ITEMS_SORTING},
@@ -114,8 +132,8 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                           BIT(motion) | BIT(control), WEIR_ITEMS_SOLID_SHARES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", forces_part, FORCES_READS,
                            FORCES_WRITES, WEIR_ITEMS_SHARES},
-    [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
-                                 WEIR_ITEMS_FREE_BLOCKS},
+    [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), "const FORCES_READ = false;\n", NULL, SUM_READS,
+                                 BIT(solid_sum), WEIR_ITEMS_FREE_BLOCKS},
     [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
                            BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
@@ -123,15 +141,15 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                          BIT(coordinate) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
                              BIT(control),
                          BIT(kicked), WEIR_ITEMS_SOLIDS},
-    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(id) | BIT(kicked), PARTICLES | BIT(control),
+    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(kicked), PARTICLES | BIT(control),
                            WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_FORCES_READ] = {READING(forces), "const FORCES_READ = true;\n", forces_part, FORCES_READS,
                                 FORCES_WRITES, WEIR_ITEMS_SHARES},
-    [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), NULL, NULL, SUM_READS, BIT(solid_sum),
-                                      WEIR_ITEMS_BLOCKS},
+    [WEIR_WCSPH_SOLID_FORCES_READ] = {READING(solid_forces), "const FORCES_READ = true;\n", NULL, SUM_READS,
+                                      BIT(solid_sum), WEIR_ITEMS_BLOCKS},
     [WEIR_WCSPH_FIRST_STEP] = {WCSPH(first_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(coordinate) | BIT(id), BIT(control),
                            WEIR_ITEMS_ONE},
@@ -146,10 +164,9 @@ static const char *const plane_parts[] = PARTS(plane), *const space_parts[] = PA
 
 const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension)
 {
-    static const WeirMethodInfo plane = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL,
-                                         plane_parts},
-                                space = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL,
-                                         space_parts};
+    static const WeirMethodInfo
+        plane = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL, plane_parts, functions},
+        space = {buffers, passes, WEIR_WCSPH_BUFFER_TOTAL, WEIR_WCSPH_PASS_TOTAL, space_parts, functions};
     return dimension == 3 ? &space : &plane;
 }
 
@@ -159,38 +176,42 @@ static uint64_t at_least_one(uint64_t count)
 }
 
 void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world,
-                          const WeirWcsphTraits *traits, uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL])
+                          const WeirWcsphTraits *traits, WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL])
 {
     uint64_t count = constants->particle_count, solid_particles = count - constants->first_solid;
     // The empty slots' cell, and beyond it the count of all.
     uint64_t cells = weir_padded_cells((uint64_t)constants->cell_count + 1);
     uint64_t solids = at_least_one(traits->solid_count);
-    sizes[WEIR_WCSPH_parameters] = sizeof(WeirParameters);
-    sizes[WEIR_WCSPH_constants] = sizeof(WeirConstants);
-    sizes[WEIR_WCSPH_solid_table] = solids * sizeof(WeirSolid);
-    sizes[WEIR_WCSPH_emitters] = at_least_one(traits->emitter_count) * sizeof(WeirEmitter);
-    sizes[WEIR_WCSPH_drains] =
+    sizes[WEIR_WCSPH_parameters].bytes = sizeof(WeirParameters);
+    sizes[WEIR_WCSPH_constants].bytes = sizeof(WeirConstants);
+    sizes[WEIR_WCSPH_solid_table].bytes = solids * sizeof(WeirSolid);
+    sizes[WEIR_WCSPH_emitters].bytes = at_least_one(traits->emitter_count) * sizeof(WeirEmitter);
+    sizes[WEIR_WCSPH_drains].bytes =
         at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
-    sizes[WEIR_WCSPH_motion] = 3 * 16 * count;
-    sizes[WEIR_WCSPH_coordinate] = 3 * 16 * count + 8 * 16; // near_block() loads eight, the last ones beyond
-    sizes[WEIR_WCSPH_neighbor_list] = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
-    sizes[WEIR_WCSPH_solid_slot] = 4 * at_least_one(solid_particles);
-    sizes[WEIR_WCSPH_id] = sizes[WEIR_WCSPH_sorted_id] = 4 * count;
-    sizes[WEIR_WCSPH_cell_count] = sizes[WEIR_WCSPH_cell_start] = 4 * cells;
-    sizes[WEIR_WCSPH_cell_link] = 4 * (cells + count);
-    sizes[WEIR_WCSPH_block_sum] = 4 * (cells / WEIR_SCAN_BLOCK);
-    sizes[WEIR_WCSPH_kicked] = 32 * count;
-    sizes[WEIR_WCSPH_solid_state] = 3 * solids * sizeof(WeirSolidState);
-    sizes[WEIR_WCSPH_local_place] = 16 * at_least_one(solid_particles);
-    sizes[WEIR_WCSPH_blocks] = 16 * at_least_one(traits->block_count);
-    sizes[WEIR_WCSPH_solid_sum] = 64 * at_least_one(traits->block_count);
-    sizes[WEIR_WCSPH_motion_rows] = at_least_one(world->motion_count) * sizeof(WeirMotionRow);
+    sizes[WEIR_WCSPH_motion] = (WeirBufferSize){16 * count, 3, 0};
+    sizes[WEIR_WCSPH_coordinate] = (WeirBufferSize){16 * count, 3, 8 * 16}; // near_block() loads eight
+    sizes[WEIR_WCSPH_neighbor_list].bytes = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
+    sizes[WEIR_WCSPH_solid_slot].bytes = 4 * at_least_one(solid_particles);
+    sizes[WEIR_WCSPH_id].bytes = 4 * count;
+    sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
+    sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
+    sizes[WEIR_WCSPH_cell_start].bytes = 4 * cells;
+    sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + count);
+    sizes[WEIR_WCSPH_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
+    sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->moving_solids ? 2 : 1, 0};
+    sizes[WEIR_WCSPH_density_rate].bytes = 4 * count;
+    sizes[WEIR_WCSPH_solid_state].bytes = 3 * solids * sizeof(WeirSolidState);
+    sizes[WEIR_WCSPH_local_place].bytes = 16 * at_least_one(solid_particles);
+    sizes[WEIR_WCSPH_blocks].bytes = 16 * at_least_one(traits->block_count);
+    sizes[WEIR_WCSPH_solid_sum].bytes = 64 * at_least_one(traits->block_count);
+    sizes[WEIR_WCSPH_motion_rows].bytes = at_least_one(world->motion_count) * sizeof(WeirMotionRow);
     // Slots by id, the blocks' counts, what is found for one layer of each emitter.
     uint64_t slots = constants->first_solid, blocks = slots / WEIR_VACANCY_BLOCK + 1;
-    sizes[WEIR_WCSPH_vacancy] = traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
-    sizes[WEIR_WCSPH_nozzle] = 16 * at_least_one(world->point_count);
-    sizes[WEIR_WCSPH_schedule] = 16 * at_least_one(traits->emitter_count);
-    sizes[WEIR_WCSPH_control] = sizeof(WeirWcsphControl);
+    sizes[WEIR_WCSPH_vacancy].bytes =
+        traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
+    sizes[WEIR_WCSPH_nozzle].bytes = 16 * at_least_one(world->point_count);
+    sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
+    sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
 
 uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirConstants *constants,

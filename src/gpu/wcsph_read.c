@@ -52,30 +52,24 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
 
 // ---- State ----
 
-// The pieces of the copy, one after the other, by slot: the first of the working copies; of kicked its first half:
-// acceleration, pressure.
-typedef struct Piece {
+// The pieces of the copy, by slot: the first of the working copies; of kicked its first one: acceleration, pressure.
+static const struct Piece {
     WeirWcsphBuffer name;
     uint32_t per_particle; // bytes; 0: the whole buffer
-    uint32_t skip;         // that many times the particle count before it
-} Piece;
-static const Piece pieces[] = {
+    uint32_t copy;
+} pieces[WEIR_WCSPH_PIECES] = {
     {WEIR_WCSPH_coordinate, 16, 1}, {WEIR_WCSPH_motion, 16, 1},     {WEIR_WCSPH_id, 4, 0},
     {WEIR_WCSPH_kicked, 16, 0},     {WEIR_WCSPH_solid_state, 0, 0}, {WEIR_WCSPH_solid_sum, 0, 0},
     {WEIR_WCSPH_control, 0, 0},
 };
-enum { PIECES = sizeof pieces / sizeof pieces[0] };
 
-static uint64_t piece_size(const Piece *piece, const uint64_t *sizes, uint32_t count)
+void weir_gpu_wcsph_piece_sizes(const WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count,
+                                uint64_t piece_sizes[WEIR_WCSPH_PIECES])
 {
-    return piece->per_particle > 0 ? (uint64_t)piece->per_particle * count : sizes[piece->name];
-}
-
-uint64_t weir_gpu_wcsph_copy_size(const uint64_t sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count)
-{
-    uint64_t total = 0;
-    for (int n = 0; n < PIECES; ++n) total += piece_size(&pieces[n], sizes, particle_count);
-    return total;
+    for (int n = 0; n < WEIR_WCSPH_PIECES; ++n) {
+        uint64_t per_particle = pieces[n].per_particle;
+        piece_sizes[n] = per_particle > 0 ? per_particle * particle_count : sizes[pieces[n].name].bytes;
+    }
 }
 
 // After a blow-up: the working copy that the bad step began with is the last good state, and the solids' state before
@@ -87,7 +81,7 @@ static void restore(WeirWcsphGpu *solver)
     if (solver->traits.solid_count > 0)
         weir_buffers_write(buffers, WEIR_WCSPH_solid_state, solver->host_solids,
                            solver->traits.solid_count * sizeof *solver->host_solids);
-    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_control],
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_control][0],
                          offsetof(WeirWcsphControl, restored), &one, sizeof one);
     solver->restored = true;
 }
@@ -95,18 +89,16 @@ static void restore(WeirWcsphGpu *solver)
 void weir_gpu_wcsph_copy_state(WeirGpuSolver *common)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
-    uint32_t count = common->constants.particle_count;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
     bool restores = solver->blown_up && !solver->restored;
     if (restores) restore(solver);
     weir_gpu_wcsph_evaluate(solver, encoder, restores ? WEIR_EVALUATE_RESTORED : WEIR_EVALUATE_STATE);
-    uint64_t offset = 0;
-    for (int n = 0; n < PIECES; ++n) {
-        uint64_t size = piece_size(&pieces[n], common->buffers.size, count);
-        uint64_t from = (uint64_t)pieces[n].skip * pieces[n].per_particle * count;
-        weir_readback_copy(common->state_copy, encoder, common->buffers.handle[pieces[n].name], from, offset,
-                           size);
-        offset += size;
+    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) {
+        const WeirBuffers *buffers = &common->buffers;
+        bool apart = buffers->parts[pieces[n].name] > 1;
+        WGPUBuffer from = buffers->handle[pieces[n].name][apart ? pieces[n].copy : 0];
+        uint64_t offset = apart ? 0 : pieces[n].copy * buffers->size[pieces[n].name].bytes;
+        weir_readback_copy(common->state_copy, encoder, n, from, offset);
     }
     weir_gpu_submit(common->gpu, encoder, "read");
 }
@@ -117,19 +109,15 @@ typedef struct View {
     const float *motion;
     const uint32_t *id;
     const float *kicked; // acceleration, pressure
-    const char *solids;  // WeirSolidState, on no boundary of 16 bytes: to be copied
-    const float *sums;   // 16 per block
+    const WeirSolidState *solids;
+    const float *sums; // 16 per block
     const WeirWcsphControl *control;
 } View;
 
-static View view_of(const WeirGpuSolver *common, const void *copy)
+static View view_of(const WeirGpuSolver *common)
 {
-    const void *at[PIECES];
-    const char *next = copy;
-    for (int n = 0; n < PIECES; ++n) {
-        at[n] = next;
-        next += piece_size(&pieces[n], common->buffers.size, common->constants.particle_count);
-    }
+    const void *at[WEIR_WCSPH_PIECES];
+    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) at[n] = weir_readback_data(common->state_copy, n);
     return (View){at[0], at[1], at[2], at[3], at[4], at[5], at[6]};
 }
 
@@ -214,15 +202,15 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
     };
 }
 
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, const void *copy, WeirState *state)
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, WeirState *state)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
-    View view = view_of(common, copy);
+    View view = view_of(common);
     bool bad = view.control->bad_step != UINT32_MAX;
     if (bad && !solver->restored) {
         // Nothing was evaluated: copy again what was good.
-        size_t bytes = solver->traits.solid_count * sizeof *solver->host_solids;
-        memcpy(solver->host_solids, view.solids + 2 * bytes, bytes);
+        size_t count = solver->traits.solid_count;
+        memcpy(solver->host_solids, view.solids + 2 * count, count * sizeof *solver->host_solids);
         solver->blown_up = true;
         return WEIR_PENDING;
     }

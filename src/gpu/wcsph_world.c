@@ -109,7 +109,7 @@ static void write_nozzle(WeirWcsphGpu *solver, const WeirEmitter *emitter)
     enum { AT_ONCE = 64 };
     const WeirConstants *constants = &solver->common.constants;
     uint32_t dimension = constants->dimension;
-    WGPUBuffer nozzle = solver->common.buffers.handle[WEIR_WCSPH_nozzle];
+    WGPUBuffer nozzle = solver->common.buffers.handle[WEIR_WCSPH_nozzle][0];
     int32_t places[AT_ONCE][4] = {{0}};
     for (uint32_t k = 0; k < emitter->point_count; ++k) {
         uint32_t point = emitter->point_first + k, ready = k % AT_ONCE + 1;
@@ -135,8 +135,8 @@ static void write_flows(WeirWcsphGpu *solver)
     if (world->drain_count == 0) return;
     size_t groups = world->drain_group_count * sizeof *world->drain_groups;
     weir_buffers_write(buffers, WEIR_WCSPH_drains, world->drain_groups, groups);
-    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_drains], groups, world->drains,
-                         world->drain_count * sizeof *world->drains);
+    wgpuQueueWriteBuffer(solver->common.gpu->queue, buffers->handle[WEIR_WCSPH_drains][0], groups,
+                         world->drains, world->drain_count * sizeof *world->drains);
 }
 
 void weir_gpu_wcsph_write_world(WeirWcsphGpu *solver)

@@ -84,6 +84,7 @@ static const Field fields[] = {
     CONTROL(bad_particles, COUNT),
     CONTROL(bad_step, COUNT),
     CONTROL(bad_id, COUNT),
+    CONTROL(bad_slot, COUNT),
     CONTROL(starting, COUNT),
     CONTROL(bad_place, VECTOR),
     CONTROL(drained, COUNT),
@@ -230,8 +231,9 @@ static WeirReadback *run_echo(const Echo *echo)
     wgpuComputePassEncoderDispatchWorkgroups(pass, 1, 1, 1);
     wgpuComputePassEncoderEnd(pass);
     wgpuComputePassEncoderRelease(pass);
-    WeirReadback *readback = weir_readback_create(echo->gpu, "echo readback", sources[ECHO].size);
-    weir_readback_copy(readback, encoder, echo->buffer[ECHO], 0, 0, sources[ECHO].size);
+    WeirReadback *readback =
+        weir_readback_create(echo->gpu, "echo readback", 1, &(uint64_t){sources[ECHO].size});
+    weir_readback_copy(readback, encoder, 0, echo->buffer[ECHO], 0);
     weir_gpu_submit(echo->gpu, encoder, "echo");
     weir_readback_start(readback);
     while (weir_readback_state(readback) != WEIR_READBACK_READY)
@@ -261,7 +263,7 @@ static void every_field_arrives(void **state)
         wgpuQueueWriteBuffer(echo.gpu->queue, echo.buffer[n], 0, data[n], sources[n].size);
     }
     WeirReadback *readback = run_echo(&echo);
-    const uint32_t *seen = weir_readback_data(readback);
+    const uint32_t *seen = weir_readback_data(readback, 0);
     assert_non_null(seen);
     for (int n = 0; n < FIELDS; ++n) {
         const char *written = written_to(data, &fields[n]);

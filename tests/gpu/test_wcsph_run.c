@@ -103,6 +103,48 @@ static void dispatches_and_checks_change_nothing(void **state)
     weir_gpu_destroy(trusted);
 }
 
+// Where all copies of the particles do not fit one binding, each has its own: that changes nothing. (No lists fit either
+// then, so both walk.)
+static void copies_apart_change_nothing(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"body_3d", "dam_3d", "tap_3d"};
+    uint64_t own = gpu->limits.maxStorageBufferBindingSize;
+    for (int n = 0; n < 3; ++n) {
+        WeirTestWorld test = weir_test_case(names[n]);
+        uint64_t count = test.world.particles.count;
+        weir_test_world_free(&test);
+        gpu->limits.maxStorageBufferBindingSize = 3 * 16 * count + 128;
+        uint64_t once = run(names[n], (Course){gpu, 24, 24, false});
+        gpu->limits.maxStorageBufferBindingSize = 3 * 16 * count - 1; // coordinate and motion are apart
+        assert_true(run(names[n], (Course){gpu, 24, 8, true}) == once);
+        gpu->limits.maxStorageBufferBindingSize = 2 * 16 * count - 1; // of a moving solid's world kicked too
+        assert_true(run(names[n], (Course){gpu, 24, 24, false}) == once);
+    }
+    gpu->limits.maxStorageBufferBindingSize = own;
+}
+
+// A device that binds too few buffers says so.
+static void too_few_bindings_are_told(void **state)
+{
+    (void)state;
+    WGPULimits own = gpu->limits;
+    WeirTestWorld test = weir_test_case("dam_3d");
+    gpu->limits.maxStorageBufferBindingSize = 3 * 16 * (uint64_t)test.world.particles.count - 1;
+    gpu->limits.maxStorageBuffersPerShaderStage = 8;
+    WeirStatus status = WEIR_OK;
+    WeirMessage message = {""};
+    WeirSolverSetup setup = weir_test_world_setup(&test);
+    WeirSolver *solver =
+        weir_gpu_backend(gpu)->create_solver(weir_gpu_backend(gpu), &setup, &status, &message);
+    gpu->limits = own;
+    assert_null(solver);
+    assert_int_equal(status, WEIR_ERROR_MEMORY);
+    assert_non_null(strstr(message.text, "need 12 storage buffers in the GPU's pass walls"));
+    assert_non_null(strstr(message.text, "allows 8; raise parameters.particle_spacing"));
+    weir_test_world_free(&test);
+}
+
 // A run ends exactly where it was asked to, and what was asked beyond it does not count.
 static void runs_end_in_time(void **state)
 {
@@ -389,6 +431,8 @@ int main(void)
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(equal_runs_give_equal_bits),
         cmocka_unit_test(dispatches_and_checks_change_nothing),
+        cmocka_unit_test(copies_apart_change_nothing),
+        cmocka_unit_test(too_few_bindings_are_told),
         cmocka_unit_test(runs_end_in_time),
         cmocka_unit_test(a_blow_up_is_found),
         cmocka_unit_test(the_last_good_state_is_kept),

@@ -175,7 +175,7 @@ void weir_test_world_motion(WeirTestWorld *test, WeirSolid *solid, const float (
     world->motion_count += count;
 }
 
-WeirSolver *weir_test_world_solver(const WeirTestWorld *test, const WeirBackend *backend)
+WeirSolverSetup weir_test_world_setup(const WeirTestWorld *test)
 {
     WeirSolverSetup setup = {.method = WEIR_METHOD_WCSPH, .world = &test->world, .threads = 1};
     setup.parameters = weir_scene_resolved(test->scene);
@@ -183,6 +183,12 @@ WeirSolver *weir_test_world_solver(const WeirTestWorld *test, const WeirBackend 
     weir_constants_make(&setup.constants, test->scene, &setup.parameters, particles->count, NULL);
     setup.constants.first_solid = particles->fluid_slots;
     setup.constants.solid_count = test->world.solid_count;
+    return setup;
+}
+
+WeirSolver *weir_test_world_solver(const WeirTestWorld *test, const WeirBackend *backend)
+{
+    WeirSolverSetup setup = weir_test_world_setup(test);
     WeirStatus status = WEIR_OK;
     WeirMessage message = {""};
     WeirSolver *solver = backend->create_solver(backend, &setup, &status, &message);

@@ -35,6 +35,8 @@ void weir_test_world_body(WeirTestWorld *test, WeirSolid *solid, const double mi
 void weir_test_world_motion(WeirTestWorld *test, WeirSolid *solid, const float (*rows)[13], uint32_t count,
                             bool repeats);
 
+// What a solver for it is made from.
+WeirSolverSetup weir_test_world_setup(const WeirTestWorld *test);
 // A solver of `backend` for it; fails the test if there is none.
 WeirSolver *weir_test_world_solver(const WeirTestWorld *test, const WeirBackend *backend);
 
