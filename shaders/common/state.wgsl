@@ -146,6 +146,12 @@ const NOW = 0u;
 const NEW = SOLID_COUNT;
 const SAVED = 2u * SOLID_COUNT;
 
+// A particle of a wall or body, by id: where it was at the start, m from its solid's reference point, and its slot.
+struct SolidParticle {
+    start: vec3f,
+    slot: u32,
+}
+
 // WeirEmitter and WeirDrain. Before the drains stand the boxes around groups of them.
 struct Emitter {
     point_first: u32,

@@ -1,12 +1,12 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
 // The later steps' is done where the last one finishes. What is to be sorted stays in the state, the rest goes to a working copy.
 //
-// in:  coordinate, motion, id, density_rate (of the last step), solid_state, local_place, control
+// in:  coordinate, motion, id, density_rate (of the last step), solid_particle, solid_state, control
 // out: coordinate, motion, counts and largest way in control
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_density_rate) var<storage, read> density_rate: array<f32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
-@group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
+@group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
 var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
@@ -47,7 +47,7 @@ fn drift_particle(i: u32, target_slot: u32) {
             atomicAdd(&control.lost, 1u);
         }
     } else if MOVING_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind != SOLID_FIXED {
-        let start = local_place[id[i] - constants.first_solid].xyz;
+        let start = solid_particle[id[i] - constants.first_solid].start;
         let way = way_to(solid_state[NOW + group - GROUP_SOLID], start, place_of(old));
         at = vec4i(wide_place(place_of(old) + way), old.w);
     }

@@ -2,11 +2,11 @@
 // Solid particles list fluid alone.
 //
 // in:  coordinate, sorted_id, cell_start, control
-// out: neighbor_list, solid_slot, id; cell_link's heads are emptied for the next count
+// out: neighbor_list, solid_particle (slots), id; cell_link's heads are emptied for the next count
 @group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_neighbor_list) var<storage, read_write> neighbor_list: array<vec4u>;
-@group(0) @binding(BINDING_solid_slot) var<storage, read_write> solid_slot: array<u32>;
+@group(0) @binding(BINDING_solid_particle) var<storage, read_write> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
 
@@ -116,7 +116,7 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
 fn note_particle(i: u32) {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
-        solid_slot[sorted_id[i] - constants.first_solid] = i;
+        solid_particle[sorted_id[i] - constants.first_solid].slot = i;
     }
     let start = side_start(control.side);
     let own = coordinate_at(start + i);

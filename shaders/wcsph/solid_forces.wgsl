@@ -1,10 +1,9 @@
 // Forces and torques on solids, summed over one block of particles per workgroup, always in the same order.
 //
-// in:  kicked (forces by slot; for a read accelerations), solid_slot, solid_state, local_place, blocks: solid, first id, last id + 1
+// in:  kicked (forces by slot; for a read accelerations), solid_particle, solid_state, blocks: solid, first id, last id + 1
 // out: solid_sum, four per block: force and torque of the fluid, of contact
-@group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
-@group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
+@group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
 @group(0) @binding(BINDING_solid_sum) var<storage, read_write> solid_sum: array<vec4f>;
 
@@ -19,8 +18,8 @@ fn solid_forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     var sums = array<vec4f, 4>();
     for (var id = block.y + local; id < block.z; id += WORKGROUP_SIZE) {
         let particle = id - constants.first_solid;
-        let arm = rotate(orientation, local_place[particle].xyz);
-        let slot = solid_slot[particle];
+        let arm = rotate(orientation, solid_particle[particle].start);
+        let slot = solid_particle[particle].slot;
         var fluid: vec3f;
         var contact = vec3f(0.0);
         if FORCES_READ {

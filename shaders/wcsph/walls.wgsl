@@ -2,11 +2,10 @@
 // stands for, and for the laminar viscosity the mirrored velocity.
 // The first workgroup does the clock instead, which nobody here reads.
 //
-// in:  coordinate, motion (of the fluid), cell_start, neighbor_list, solid_slot, solid_state, local_place, control
+// in:  coordinate, motion (of the fluid), cell_start, neighbor_list, solid_particle, solid_state, control
 // out: motion (of solids), control
-@group(0) @binding(BINDING_solid_slot) var<storage, read> solid_slot: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
-@group(0) @binding(BINDING_local_place) var<storage, read> local_place: array<vec4f>;
+@group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 
 fn reading_start() -> u32 {
     return side_start(control.side);
@@ -61,7 +60,7 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
         return WallMotion(surface, vec3f(0.0));
     }
     let state = solid_state[NOW + n];
-    let arm = rotate(state.orientation, local_place[particle].xyz);
+    let arm = rotate(state.orientation, solid_particle[particle].start);
     let spin = cross(state.angular_velocity.xyz, arm);
     return WallMotion(state.velocity.xyz + spin + surface,
                       state.acceleration.xyz + cross(state.angular_acceleration.xyz, arm)
@@ -69,13 +68,13 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
 }
 
 fn share_of(particle: u32, lane: u32) -> Sums {
-    let i = solid_slot[particle];
+    let i = solid_particle[particle].slot;
     return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane);
 }
 
 // By the first thread of the solid particle, the workgroup's thread `local`.
 fn see_fluid(particle: u32, local: u32) {
-    let i = solid_slot[particle];
+    let i = solid_particle[particle].slot;
     let start = reading_start();
     let own = coordinate_at(start + i);
     let sums = all_sums(i, place_of(own), Own(0u), local);

@@ -51,7 +51,8 @@ void weir_buffers_create(WeirBuffers *buffers, WeirReport *report)
     for (uint32_t name = 0; name < buffers->count; ++name) {
         const WeirBufferInfo *info = &buffers->info[name];
         WGPUBufferUsage usage = WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc |
-                                (info->uniform ? WGPUBufferUsage_Uniform : WGPUBufferUsage_Storage);
+                                (info->uniform ? WGPUBufferUsage_Uniform : WGPUBufferUsage_Storage) |
+                                (info->indirect ? WGPUBufferUsage_Indirect : 0);
         weir_report_begin(report);
         for (uint32_t part = 0; part < buffers->parts[name]; ++part)
             buffers->handle[name][part] = weir_gpu_create_buffer(buffers->gpu, info->label, usage,

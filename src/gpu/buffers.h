@@ -9,6 +9,7 @@ enum { WEIR_MAX_BUFFERS = 32, WEIR_MAX_COPIES = 3 };
 typedef struct WeirBufferInfo {
     const char *name, *label;
     bool uniform;        // bound to every pass as a uniform buffer, otherwise a storage buffer
+    bool indirect;       // sizes of dispatches too
     const char *element; // WGSL type of its elements, if its copies may lie apart (copies.h); NULL: never
 } WeirBufferInfo;
 

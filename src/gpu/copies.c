@@ -11,9 +11,9 @@ typedef struct Text {
 } Text;
 
 #define APPEND(to, ...)                                                                                      \
-    (to)->length += (size_t)snprintf((to)->length < (to)->capacity ? (to)->text + (to)->length : NULL,       \
-                                     (to)->length < (to)->capacity ? (to)->capacity - (to)->length : 0,      \
-                                     __VA_ARGS__)
+    (to)->length +=                                                                                          \
+        (size_t)snprintf((to)->length < (to)->capacity ? (to)->text + (to)->length : NULL,                   \
+                         (to)->length < (to)->capacity ? (to)->capacity - (to)->length : 0, __VA_ARGS__)
 
 static void declare_array(Text *to, const WeirBuffers *buffers, uint32_t name, bool written)
 {
@@ -75,7 +75,8 @@ size_t weir_copies_declare(const WeirBuffers *buffers, const WeirCopyFunction *f
         if (buffers->info[name].element && (reads | writes) >> name & 1)
             declare_array(&to, buffers, name, writes >> name & 1);
     for (; functions && functions->head; ++functions) {
-        bool can_read = (functions->reads & ~(reads | writes)) == 0, can_write = (functions->writes & ~writes) == 0;
+        bool can_read = (functions->reads & ~(reads | writes)) == 0,
+             can_write = (functions->writes & ~writes) == 0;
         if (can_read && can_write) declare_function(&to, functions, parts_of(buffers, functions));
     }
     return to.length;

@@ -7,7 +7,8 @@
 
 typedef struct WeirCopyFunction {
     const char *head; // name, parameters, of them `k` the index, and result
-    const char *body; // statements that end in a return; "$name" is the array that k lies in, "#" the index there
+    const char
+        *body; // statements that end in a return; "$name" is the array that k lies in, "#" the index there
     uint32_t reads, writes; // the buffers it needs, by bit
 } WeirCopyFunction;
 

@@ -5,9 +5,10 @@
 WGPUInstance weir_platform_create_instance(void)
 {
     // Vulkan, Metal and DirectX 12: OpenGL's compute shaders fall short, and looking for it makes
-    // drivers print.
+    // drivers print. No flags: a check of indirect dispatches takes a dispatch for each, and their sizes are our own.
     WGPUInstanceExtras extras = {.chain.sType = (WGPUSType)WGPUSType_InstanceExtras,
-                                 .backends = WGPUInstanceBackend_Primary};
+                                 .backends = WGPUInstanceBackend_Primary,
+                                 .flags = WGPUInstanceFlag_Empty};
     return wgpuCreateInstance(&(WGPUInstanceDescriptor){.nextInChain = &extras.chain});
 }
 
@@ -46,4 +47,9 @@ WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModul
 double weir_platform_timestamp_period(WeirGpu *gpu)
 {
     return wgpuQueueGetTimestampPeriod(gpu->queue);
+}
+
+bool weir_platform_dispatches_indirectly(void)
+{
+    return true;
 }

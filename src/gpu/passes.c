@@ -214,11 +214,29 @@ void weir_passes_destroy(WeirPasses *passes)
     for (int n = 0; n < WEIR_MAX_VARIANTS; ++n) release_pipelines(&passes->variants[n]);
 }
 
-void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder)
+void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2])
 {
-    uint32_t groups = passes->groups[passes->method->passes[pass].items];
-    uint32_t rows = (groups + passes->gpu->max_groups - 1) / passes->gpu->max_groups;
+    size[1] = (groups + gpu->max_groups - 1) / gpu->max_groups;
+    size[0] = (groups + size[1] - 1) / size[1];
+}
+
+static void set_pass(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder)
+{
     wgpuComputePassEncoderSetPipeline(encoder, passes->variants[passes->current].pipeline[pass]);
     wgpuComputePassEncoderSetBindGroup(encoder, 0, passes->bind_group[pass], 0, NULL);
-    wgpuComputePassEncoderDispatchWorkgroups(encoder, (groups + rows - 1) / rows, rows, 1);
+}
+
+void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder)
+{
+    uint32_t size[2];
+    weir_pass_groups(passes->gpu, passes->groups[passes->method->passes[pass].items], size);
+    set_pass(passes, pass, encoder);
+    wgpuComputePassEncoderDispatchWorkgroups(encoder, size[0], size[1], 1);
+}
+
+void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,
+                                 WGPUBuffer sizes, uint64_t offset)
+{
+    set_pass(passes, pass, encoder);
+    wgpuComputePassEncoderDispatchWorkgroupsIndirect(encoder, sizes, offset);
 }

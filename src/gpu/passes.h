@@ -69,8 +69,13 @@ WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message);
 WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,
                                WeirMessage *message);
 void weir_passes_destroy(WeirPasses *passes);
+// Workgroups of a dispatch along its two dimensions.
+void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2]);
 // Records one pass.
 void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder);
+// The same with workgroups by three numbers of a buffer, from byte `offset` on.
+void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,
+                                 WGPUBuffer sizes, uint64_t offset);
 
 // The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, `parts` (NULL for none),
 // then `source`. NULL if memory runs out.

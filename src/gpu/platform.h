@@ -17,3 +17,5 @@ WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModul
                                              bool trusted);
 // Nanoseconds of one tick of a timestamp query.
 double weir_platform_timestamp_period(WeirGpu *gpu);
+// Whether a dispatch whose size the device decides costs no more than one that does nothing.
+bool weir_platform_dispatches_indirectly(void);

@@ -100,17 +100,28 @@ WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder enc
     return (WeirRecorder){solver, encoder, NULL};
 }
 
+// Where a pass goes, in a measured step one of its own; then it is to be ended.
+static WGPUComputePassEncoder pass_encoder(const WeirRecorder *recorder, uint32_t pass)
+{
+    const WeirGpuSolver *solver = recorder->solver;
+    if (recorder->pass) return recorder->pass;
+    return weir_profile_begin_pass(solver->profile, solver->passes.method->passes[pass].name,
+                                   recorder->encoder);
+}
+
 void weir_record(const WeirRecorder *recorder, uint32_t pass)
 {
+    WGPUComputePassEncoder encoder = pass_encoder(recorder, pass);
+    weir_pass_dispatch(&recorder->solver->passes, pass, encoder);
+    if (!recorder->pass) weir_profile_end_pass(recorder->solver->profile, encoder);
+}
+
+void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t sizes, uint64_t offset)
+{
     WeirGpuSolver *solver = recorder->solver;
-    if (recorder->pass) {
-        weir_pass_dispatch(&solver->passes, pass, recorder->pass);
-        return;
-    }
-    const char *name = solver->passes.method->passes[pass].name;
-    WGPUComputePassEncoder own = weir_profile_begin_pass(solver->profile, name, recorder->encoder);
-    weir_pass_dispatch(&solver->passes, pass, own);
-    weir_profile_end_pass(solver->profile, own);
+    WGPUComputePassEncoder encoder = pass_encoder(recorder, pass);
+    weir_pass_dispatch_indirect(&solver->passes, pass, encoder, solver->buffers.handle[sizes][0], offset);
+    if (!recorder->pass) weir_profile_end_pass(solver->profile, encoder);
 }
 
 void weir_recorder_end(const WeirRecorder *recorder)

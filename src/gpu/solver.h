@@ -62,6 +62,8 @@ WeirRecorder weir_recorder_begin(WeirGpuSolver *solver, WGPUCommandEncoder encod
 // A recorder of a step that is measured pass by pass.
 WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder encoder);
 void weir_record(const WeirRecorder *recorder, uint32_t pass);
+// A pass whose workgroups the device decides, by three numbers in buffer `sizes` from byte `offset` on.
+void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t sizes, uint64_t offset);
 void weir_recorder_end(const WeirRecorder *recorder);
 
 // Steps that one submit may hold: less than 50 ms, after which a watchdog or a browser's frame would suffer. By the

@@ -5,6 +5,7 @@
 // steps that are left when `until` is reached, or after a blow-up, find control.running at 0 and do nothing. Between
 // steps cell_count and the heads of cell_link are zero (scan_write and forces empty them).
 #include "gpu/wcsph.h"
+#include "gpu/platform.h"
 #include "gpu/solvers.h"
 
 #include <math.h>
@@ -12,27 +13,33 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Workgroups that fill a large device; passes that often have nothing to do start no more of them.
-enum { MOST_SORTING = 8192 };
+// Workgroups that fill a large device; passes that often have nothing to do start no more of them. From so many on it costs
+// less that the device starts none then: measured on an H100, 10 us of a dispatch become 4.
+enum { MOST_SORTING = 8192, LEAST_INDIRECT = 1024 };
 
 // ---- The step ----
 
-static void record_emission(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+// A pass of a sort.
+static void record_sorting(const WeirRecorder *recorder, uint32_t pass, uint32_t size, bool indirect)
 {
-    if (solver->traits.emitter_count == 0) return;
-    weir_record(recorder, WEIR_WCSPH_VACANCIES);
-    weir_record(recorder, WEIR_WCSPH_EMIT);
+    if (indirect)
+        weir_record_indirect(recorder, pass, WEIR_WCSPH_sort_groups, 16 * (uint64_t)size);
+    else
+        weir_record(recorder, pass);
 }
 
-// Does nothing where the device finds that order and lists still last.
-static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
+// Does nothing where the device finds that order and lists still last. `indirect`: it has left the sizes of the dispatches.
+static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool indirect)
 {
-    record_emission(solver, recorder);
-    weir_record(recorder, WEIR_WCSPH_COUNT);
-    weir_record(recorder, WEIR_WCSPH_SCAN_REDUCE);
-    weir_record(recorder, WEIR_WCSPH_SCAN_WRITE);
-    weir_record(recorder, WEIR_WCSPH_SCATTER);
-    weir_record(recorder, WEIR_WCSPH_NEIGHBORS);
+    if (solver->traits.emitter_count > 0) {
+        record_sorting(recorder, WEIR_WCSPH_VACANCIES, WEIR_SORT_PARTICLES, indirect);
+        record_sorting(recorder, WEIR_WCSPH_EMIT, WEIR_SORT_ONE, indirect);
+    }
+    record_sorting(recorder, WEIR_WCSPH_COUNT, WEIR_SORT_PARTICLES, indirect);
+    record_sorting(recorder, WEIR_WCSPH_SCAN_REDUCE, WEIR_SORT_BLOCKS, indirect);
+    record_sorting(recorder, WEIR_WCSPH_SCAN_WRITE, WEIR_SORT_BLOCKS, indirect);
+    record_sorting(recorder, WEIR_WCSPH_SCATTER, WEIR_SORT_PARTICLES, indirect);
+    record_sorting(recorder, WEIR_WCSPH_NEIGHBORS, WEIR_SORT_PARTICLES, indirect);
 }
 
 // The first step's length and the first half of its move; later steps find theirs done where the one before finished.
@@ -50,7 +57,7 @@ static void record_walls(const WeirWcsphGpu *solver, const WeirRecorder *recorde
 
 static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
 {
-    if (may_sort) record_sort(solver, recorder);
+    if (may_sort) record_sort(solver, recorder, solver->indirect);
     record_walls(solver, recorder);
     weir_record(recorder, WEIR_WCSPH_FORCES);
     if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
@@ -67,7 +74,7 @@ void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, W
     if (how == WEIR_EVALUATE_RESTORED) weir_record(&recorder, WEIR_WCSPH_STORE);
     weir_record(&recorder, WEIR_WCSPH_BEGIN_READ);
     if (how == WEIR_EVALUATE_NEW) {
-        record_sort(solver, &recorder);
+        record_sort(solver, &recorder, false);
         weir_record(&recorder, WEIR_WCSPH_STORE);
     } else {
         weir_record(&recorder, WEIR_WCSPH_LOAD);
@@ -265,6 +272,18 @@ static bool make_host(WeirWcsphGpu *solver)
     return solver->host && solver->host_group && solver->host_solids;
 }
 
+static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
+{
+    WeirGpuSolver *common = &solver->common;
+    uint32_t groups = common->passes.groups[WEIR_ITEMS_PARTICLES];
+    if (groups > MOST_SORTING) groups = MOST_SORTING;
+    common->passes.groups[WEIR_ITEMS_SORTING] = groups;
+    weir_pass_groups(common->gpu, groups, solver->traits.sort_groups[WEIR_SORT_PARTICLES]);
+    weir_pass_groups(common->gpu, scan_blocks, solver->traits.sort_groups[WEIR_SORT_BLOCKS]);
+    weir_pass_groups(common->gpu, 1, solver->traits.sort_groups[WEIR_SORT_ONE]);
+    solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
+}
+
 static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirMessage *message)
 {
     WeirGpuSolver *common = &solver->common;
@@ -285,8 +304,7 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     if (status != WEIR_OK) return status;
     uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
     common->passes.groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
-    uint32_t groups = common->passes.groups[WEIR_ITEMS_PARTICLES];
-    common->passes.groups[WEIR_ITEMS_SORTING] = groups < MOST_SORTING ? groups : MOST_SORTING;
+    set_sort_groups(solver, scan_blocks);
     common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
     common->passes.groups[WEIR_ITEMS_FREE_BLOCKS] = solver->traits.free_block_count;
     status = configure(&common->base, &setup->parameters, &setup->constants);

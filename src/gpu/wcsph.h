@@ -20,7 +20,7 @@
 #include <assert.h>
 
 // WEIR_BUFFER(name): storage buffers. WEIR_COPIES(name, element): those with several copies of the particles (buffers.h).
-// Sizes: weir_gpu_wcsph_sizes().
+// WEIR_SIZES(name): sizes of dispatches. Bytes of each: weir_gpu_wcsph_sizes().
 #define WEIR_WCSPH_BUFFERS                                                                                   \
     WEIR_COPIES(coordinate, "vec4i")                                                                         \
     WEIR_COPIES(motion, "vec4f")                                                                             \
@@ -30,18 +30,18 @@
     WEIR_BUFFER(block_sum)                                                                                   \
     WEIR_BUFFER(cell_start)                                                                                  \
     WEIR_BUFFER(neighbor_list)                                                                               \
-    WEIR_BUFFER(solid_slot)                                                                                  \
     WEIR_BUFFER(sorted_id)                                                                                   \
     WEIR_COPIES(kicked, "vec4f")                                                                             \
     WEIR_BUFFER(density_rate)                                                                                \
     WEIR_BUFFER(solid_state)                                                                                 \
-    WEIR_BUFFER(local_place)                                                                                 \
+    WEIR_BUFFER(solid_particle)                                                                              \
     WEIR_BUFFER(blocks)                                                                                      \
     WEIR_BUFFER(solid_sum)                                                                                   \
     WEIR_BUFFER(motion_rows)                                                                                 \
     WEIR_BUFFER(vacancy)                                                                                     \
     WEIR_BUFFER(nozzle)                                                                                      \
     WEIR_BUFFER(schedule)                                                                                    \
+    WEIR_SIZES(sort_groups)                                                                                  \
     WEIR_BUFFER(control)
 
 typedef enum WeirWcsphBuffer {
@@ -51,9 +51,11 @@ typedef enum WeirWcsphBuffer {
     WEIR_WCSPH_emitters,
     WEIR_WCSPH_drains,
 #define WEIR_COPIES(name, element) WEIR_WCSPH_##name,
+#define WEIR_SIZES(name)           WEIR_WCSPH_##name,
 #define WEIR_BUFFER(name)          WEIR_WCSPH_##name,
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
+#undef WEIR_SIZES
 #undef WEIR_COPIES
         WEIR_WCSPH_BUFFER_TOTAL
 } WeirWcsphBuffer;
@@ -85,6 +87,9 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_PASS_TOTAL
 } WeirWcsphGpuPass;
 
+// Sizes of dispatches in sort_groups: of passes over particles, over blocks of cells, and of one workgroup.
+enum { WEIR_SORT_PARTICLES, WEIR_SORT_BLOCKS, WEIR_SORT_ONE, WEIR_SORT_SIZES };
+
 // What a world asks of the passes.
 typedef struct WeirWcsphTraits {
     uint32_t dimension, solid_count, emitter_count, drain_count, drain_group_count;
@@ -92,6 +97,7 @@ typedef struct WeirWcsphTraits {
     bool moving_solids, free_solids, slip_solids, can_empty;
     float fastest_surface; // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
+    uint32_t sort_groups[WEIR_SORT_SIZES][2]; // workgroups of the dispatches of a sort
     uint32_t sort_interval;            // steps; particles may be sorted before those whose number it divides
     uint32_t emission_interval;        // a multiple of it: weir_world_emission_interval()
     uint32_t lanes;                    // threads that share a particle's neighbours: 1, 2, 4, 8
@@ -154,13 +160,14 @@ typedef struct WeirWcsphGpu {
     WeirWcsphTraits traits;
     uint32_t fluid_at_start; // particles
     uint32_t counted;        // steps that the device will have taken, if they are certain: it may stop before
+    bool indirect;           // the device decides how many workgroups a sort's dispatches have
     bool certain;            // as many as it was asked to
     uint64_t steps_before;   // steps that the device counted in 32 bits before it wrapped around
     bool blown_up;           // a copy said so, and host_solids are those before the bad step
     bool restored;           // then: the last good state is the state
     WeirWcsphControl seen;   // the last copy
     uint32_t (*blocks)[4];   // solid, first id, last id + 1
-    float *local_place;      // 4 per solid particle: from its solid's reference point at the start, m
+    float *local_place;      // 4 per solid particle: from its solid's reference point at the start, m; unused
     float *host;             // the arrays of WeirState, one after the other
     uint32_t *host_group;
     WeirSolidState *host_solids;

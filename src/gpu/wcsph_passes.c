@@ -46,15 +46,17 @@ SHADER(wcsph_first_step)
 SHADER(wcsph_health)
 
 static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
-    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, NULL},
-    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true, NULL},
-    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, NULL},
-    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, NULL},
-    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, NULL},
-#define WEIR_COPIES(name, element) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, element},
+    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, false, NULL},
+    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true, false, NULL},
+    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, false, NULL},
+    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, false, NULL},
+    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, false, NULL},
+#define WEIR_COPIES(name, element) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, false, element},
+#define WEIR_SIZES(name)           [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, true, NULL},
 #define WEIR_BUFFER(name)          WEIR_COPIES(name, NULL)
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
+#undef WEIR_SIZES
 #undef WEIR_COPIES
 };
 
@@ -63,7 +65,7 @@ enum { PARTICLES = BIT(coordinate) | BIT(motion) };
 enum { SEARCH = BIT(cell_start) | BIT(neighbor_list) };
 enum { FORCES_READS = SEARCH | BIT(solid_state) };
 enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(density_rate) | BIT(control) };
-enum { SUM_READS = BIT(kicked) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) | BIT(blocks) };
+enum { SUM_READS = BIT(kicked) | BIT(solid_particle) | BIT(solid_state) | BIT(blocks) };
 
 // How shaders reach the particles (copies.h). Eight at once, or place and motion together, take one choice of the copy.
 static const WeirCopyFunction functions[] = {
@@ -105,10 +107,10 @@ static const char *const forces_part[] = {weir_wgsl_common_lists,
 #define READING(name) #name, "pass " #name "_read", weir_wgsl_wcsph_##name
 
 static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
-    [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, bodies_part, BIT(motion_rows), BIT(control) | BIT(solid_state),
-                          WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, bodies_part, BIT(motion_rows),
+                          BIT(control) | BIT(sort_groups) | BIT(solid_state), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_DRIFT] = {WCSPH(drift), NULL, drift_part,
-                          BIT(id) | BIT(density_rate) | BIT(solid_state) | BIT(local_place),
+                          BIT(id) | BIT(density_rate) | BIT(solid_state) | BIT(solid_particle),
                           BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id),
                               BIT(vacancy) | BIT(control), WEIR_ITEMS_SORTING},
@@ -125,22 +127,22 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                             PARTICLES | BIT(sorted_id) | BIT(control), WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_NEIGHBORS] = {WCSPH(neighbors), NULL, lists_part,
                               BIT(coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(control),
-                              BIT(neighbor_list) | BIT(solid_slot) | BIT(id) | BIT(cell_link),
+                              BIT(neighbor_list) | BIT(solid_particle) | BIT(id) | BIT(cell_link),
                               WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, walls_part,
-                          BIT(coordinate) | SEARCH | BIT(solid_slot) | BIT(solid_state) | BIT(local_place),
-                          BIT(motion) | BIT(control), WEIR_ITEMS_SOLID_SHARES},
+                          BIT(coordinate) | SEARCH | BIT(solid_particle) | BIT(solid_state),
+                          BIT(motion) | BIT(control) | BIT(sort_groups), WEIR_ITEMS_SOLID_SHARES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", forces_part, FORCES_READS,
                            FORCES_WRITES, WEIR_ITEMS_SHARES},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), "const FORCES_READ = false;\n", NULL, SUM_READS,
                                  BIT(solid_sum), WEIR_ITEMS_FREE_BLOCKS},
     [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
                            BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control) | BIT(sort_groups),
+                              WEIR_ITEMS_ONE},
     [WEIR_WCSPH_KICK] = {WCSPH(kick), NULL, NULL,
-                         BIT(coordinate) | BIT(solid_slot) | BIT(solid_state) | BIT(local_place) |
-                             BIT(control),
-                         BIT(kicked), WEIR_ITEMS_SOLIDS},
+                         BIT(coordinate) | BIT(solid_particle) | BIT(solid_state) | BIT(control), BIT(kicked),
+                         WEIR_ITEMS_SOLIDS},
     [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(kicked), PARTICLES | BIT(control),
                            WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
@@ -191,7 +193,6 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_motion] = (WeirBufferSize){16 * count, 3, 0};
     sizes[WEIR_WCSPH_coordinate] = (WeirBufferSize){16 * count, 3, 8 * 16}; // near_block() loads eight
     sizes[WEIR_WCSPH_neighbor_list].bytes = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
-    sizes[WEIR_WCSPH_solid_slot].bytes = 4 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
@@ -201,7 +202,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->moving_solids ? 2 : 1, 0};
     sizes[WEIR_WCSPH_density_rate].bytes = 4 * count;
     sizes[WEIR_WCSPH_solid_state].bytes = 3 * solids * sizeof(WeirSolidState);
-    sizes[WEIR_WCSPH_local_place].bytes = 16 * at_least_one(solid_particles);
+    sizes[WEIR_WCSPH_solid_particle].bytes = 16 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_blocks].bytes = 16 * at_least_one(traits->block_count);
     sizes[WEIR_WCSPH_solid_sum].bytes = 64 * at_least_one(traits->block_count);
     sizes[WEIR_WCSPH_motion_rows].bytes = at_least_one(world->motion_count) * sizeof(WeirMotionRow);
@@ -211,6 +212,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
         traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
     sizes[WEIR_WCSPH_nozzle].bytes = 16 * at_least_one(world->point_count);
     sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
+    sizes[WEIR_WCSPH_sort_groups].bytes = 16 * WEIR_SORT_SIZES;
     sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
 
@@ -244,6 +246,9 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
+    for (int k = 0; k < WEIR_SORT_SIZES; ++k)
+        APPEND("const SORT_GROUPS_%d = vec4u(%uu, %uu, 1u, 0u);\n", k, traits->sort_groups[k][0],
+               traits->sort_groups[k][1]);
     NUMBER("EMISSION_INTERVAL", traits->emission_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
            traits->most_allowance);

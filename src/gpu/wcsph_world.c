@@ -278,7 +278,7 @@ bool weir_gpu_wcsph_write_state(WeirWcsphGpu *solver, const WeirParticles *parti
         weir_buffers_write(buffers, WEIR_WCSPH_id, state.id, count * sizeof *state.id);
         size_t solid_particles = count - constants->first_solid;
         if (solid_particles > 0)
-            weir_buffers_write(buffers, WEIR_WCSPH_local_place, solver->local_place, 16 * solid_particles);
+            weir_buffers_write(buffers, WEIR_WCSPH_solid_particle, solver->local_place, 16 * solid_particles);
     }
     free(state.coordinate);
     free(state.motion);

@@ -34,3 +34,8 @@ double weir_platform_timestamp_period(WeirGpu *gpu)
     (void)gpu;
     return 1.0; // WebGPU's timestamps are nanoseconds
 }
+
+bool weir_platform_dispatches_indirectly(void)
+{
+    return false; // browsers check the size in a pass of their own
+}

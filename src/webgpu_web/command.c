@@ -101,6 +101,12 @@ void wgpuComputePassEncoderDispatchWorkgroups(WGPUComputePassEncoder pass, uint3
     weir_js_dispatch(WEIR_ID(pass), x, y, z);
 }
 
+void wgpuComputePassEncoderDispatchWorkgroupsIndirect(WGPUComputePassEncoder pass, WGPUBuffer sizes,
+                                                      uint64_t offset)
+{
+    weir_js_dispatch_indirect(WEIR_ID(pass), WEIR_ID(sizes), (double)offset);
+}
+
 void wgpuComputePassEncoderEnd(WGPUComputePassEncoder pass)
 {
     weir_js_pass_end(WEIR_ID(pass));

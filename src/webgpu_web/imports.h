@@ -123,6 +123,7 @@ WEIR_JS(void, pass_group, uint32_t pass, uint32_t index, uint32_t group, const u
         size_t count)
 WEIR_JS(void, pass_end, uint32_t pass)
 WEIR_JS(void, dispatch, uint32_t pass, uint32_t x, uint32_t y, uint32_t z)
+WEIR_JS(void, dispatch_indirect, uint32_t pass, uint32_t sizes, double offset)
 WEIR_JS(void, draw, uint32_t pass, uint32_t vertices, uint32_t instances, uint32_t first_vertex,
         uint32_t first_instance)
 

@@ -587,6 +587,8 @@ export class WebGpuImports {
       pass_end: (pass: number) => this.#get<GPUComputePassEncoder>(pass).end(),
       dispatch: (pass: number, x: number, y: number, z: number) =>
         this.#get<GPUComputePassEncoder>(pass).dispatchWorkgroups(x >>> 0, y >>> 0, z >>> 0),
+      dispatch_indirect: (pass: number, sizes: number, offset: number) =>
+        this.#get<GPUComputePassEncoder>(pass).dispatchWorkgroupsIndirect(this.#get(sizes), offset),
       draw: (pass: number, vertices: number, instances: number, firstVertex: number, firstInstance: number) =>
         this.#get<GPURenderPassEncoder>(pass).draw(
           vertices >>> 0, instances >>> 0, firstVertex >>> 0, firstInstance >>> 0,
