@@ -2,7 +2,6 @@
 
 #include <ctype.h>
 #include <stdio.h>
-#include <string.h>
 
 // As much as fits, and how much there would be.
 typedef struct Text {

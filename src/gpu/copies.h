@@ -6,10 +6,9 @@
 #include "gpu/buffers.h"
 
 typedef struct WeirCopyFunction {
-    const char *head; // name, parameters, of them `k` the index, and result
-    const char
-        *body; // statements that end in a return; "$name" is the array that k lies in, "#" the index there
-    uint32_t reads, writes; // the buffers it needs, by bit
+    const char *head;       // name, parameters, of them `k` the index, and result
+    const char *body;       // ends in a return; "$name" is the array that k lies in, "#" the index there
+    uint32_t reads, writes; // the buffers it needs, by bit; they come apart together
 } WeirCopyFunction;
 
 // Writes declarations of the arrays that a pass binds, and those of the functions (a list that ends with a head of NULL) that it

@@ -167,7 +167,7 @@ typedef struct WeirWcsphGpu {
     bool restored;           // then: the last good state is the state
     WeirWcsphControl seen;   // the last copy
     uint32_t (*blocks)[4];   // solid, first id, last id + 1
-    float *local_place;      // 4 per solid particle: from its solid's reference point at the start, m; unused
+    float *local_place;      // 4 per solid particle (`struct SolidParticle`), the last one unused
     float *host;             // the arrays of WeirState, one after the other
     uint32_t *host_group;
     WeirSolidState *host_solids;

@@ -190,8 +190,8 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_emitters].bytes = at_least_one(traits->emitter_count) * sizeof(WeirEmitter);
     sizes[WEIR_WCSPH_drains].bytes =
         at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
-    sizes[WEIR_WCSPH_motion] = (WeirBufferSize){16 * count, 3, 0};
-    sizes[WEIR_WCSPH_coordinate] = (WeirBufferSize){16 * count, 3, 8 * 16}; // near_block() loads eight
+    // coordinate_block() may load seven beyond the last one. Both of one size: they come apart together.
+    sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_motion] = (WeirBufferSize){16 * count, 3, 7 * 16};
     sizes[WEIR_WCSPH_neighbor_list].bytes = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
     sizes[WEIR_WCSPH_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
