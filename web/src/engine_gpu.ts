@@ -13,6 +13,8 @@ const framesInFlight = 2;
 const snapshotMs = 1000;
 const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
+const settleMs = 1000; // for what is still on its way when the picture stops
+const repaintMs = 500; // of a picture that stands still: a browser may lose it
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
 
 // Firefox (153) never paints again if a device, or a canvas's configuration, goes while that canvas is on the page: the
@@ -67,6 +69,9 @@ export class GpuEngine implements Engine {
   #stopped = false;
   #destroyed = false;
   #leaving = false; // the device is about to go
+  #shown = ''; // the view that was drawn last while time stood still
+  #changed = 0; // when the picture did
+  #lastSent = 0; // when the last frame was
 
   // `gpu` must be ready.
   constructor(weir: Weir, gpu: Gpu, canvas: HTMLCanvasElement, onFault: FaultHandler) {
@@ -125,7 +130,8 @@ export class GpuEngine implements Engine {
     this.#stopped = false;
     this.#snapshot = null;
     this.#snapshotPhase = 'idle';
-    this.#snapshotAt = performance.now() - 0.8 * snapshotMs; // soon, but not in the first frames
+    this.#changed = performance.now();
+    this.#snapshotAt = this.#changed - 0.8 * snapshotMs; // soon, but not in the first frames
     this.#diagnosing = false;
     this.stats.particles = next.particleCount;
     this.stats.diagnostics = null;
@@ -162,7 +168,7 @@ export class GpuEngine implements Engine {
     if (!sim || this.#destroyed || this.#leaving) return;
     this.#budgetMs = 0.85 * intervalMs;
     this.#owedWall += wallSeconds;
-    if (!this.#poll(sim) || this.#inFlight >= framesInFlight) return;
+    if (!this.#poll(sim) || this.#inFlight >= framesInFlight || this.#standsStill(wallSeconds, view)) return;
     try {
       sim.setTool(tool.kind, tool.position, tool.velocity, tool.radius, tool.strength);
       sim.setMaxSteps(this.#pace.maxSteps);
@@ -175,10 +181,23 @@ export class GpuEngine implements Engine {
     }
   }
 
+  // Whether the same picture is to be drawn again as lately.
+  #standsStill(wallSeconds: number, view: View): boolean {
+    const now = performance.now();
+    if (wallSeconds > 0) {
+      this.#changed = now;
+      return false;
+    }
+    const shown = `${JSON.stringify(view)} ${this.#canvas.width} ${this.#canvas.height}`;
+    if (shown !== this.#shown) this.#changed = now;
+    this.#shown = shown;
+    return now - this.#changed > settleMs && now - this.#lastSent < repaintMs;
+  }
+
   #submit(sim: Sim, view: View, steps: number): void {
     const status = this.#renderer.draw(sim, view);
     if (status !== Status.ok && status !== Status.pending) this.#fail(this.gpu.error || 'drawing failed');
-    this.#sent[this.#inFlight] = performance.now();
+    this.#sent[this.#inFlight] = this.#lastSent = performance.now();
     this.#sentSteps[this.#inFlight] = steps;
     this.#inFlight++;
     this.stats.frameSteps = steps;
@@ -299,6 +318,7 @@ export class GpuEngine implements Engine {
   }
 
   step(count: number): void {
+    this.#changed = performance.now();
     try {
       this.#sim?.step(count);
     } catch (error) {
@@ -306,6 +326,7 @@ export class GpuEngine implements Engine {
     }
   }
   reset(): void {
+    this.#changed = performance.now();
     this.#sim?.reset();
     this.#probes?.clear();
     for (const series of this.stats.probes) series.clear();
@@ -313,6 +334,7 @@ export class GpuEngine implements Engine {
     this.#stopped = false;
   }
   setParameter(name: string, values: number[]): void {
+    this.#changed = performance.now();
     this.#sim?.setParameter(name, values);
     this.#pace.reset();
   }

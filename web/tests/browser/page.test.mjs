@@ -178,6 +178,26 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    test('a picture that stands still is not drawn sixty times a second (gpu)', async () => {
+      const tab = await open('backend=gpu&scene=dam_2d&particles=500', { size: { width: 320, height: 240, deviceScaleFactor: 1 } });
+      await tab.frames(3);
+      await tab.evaluate(() => window.weir.setPaused(true));
+      const frames = () => tab.evaluate(() => window.weir.engine.stats.frames);
+      const pause = (ms) => tab.evaluate((time) => new Promise((resolve) => setTimeout(resolve, time)), ms);
+      await pause(2000);
+      const before = await frames();
+      await pause(2000);
+      const drawn = await frames() - before;
+      assert.ok(drawn >= 1 && drawn <= 5, `${drawn} frames in two seconds`);
+      // One step, and what it changed is drawn and told.
+      const steps = await tab.evaluate(() => window.weir.engine.stats.steps);
+      await tab.evaluate(() => window.weir.engine.step(1));
+      await tab.until('one step', (taken) => window.weir.engine.stats.steps === taken + 1, steps);
+      await tab.evaluate(() => window.weir.setPaused(false));
+      await tab.until('going on', (taken) => window.weir.engine.stats.steps > taken + 1, steps);
+      await tab.close();
+    });
+
     for (const backend of ['gpu', 'cpu']) {
       test(`3D: alive, turned by a drag, stirred on the fluid (${backend})`, async () => {
         const size = { width: 640, height: 420, deviceScaleFactor: 1 };
