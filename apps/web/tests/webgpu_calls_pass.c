@@ -84,7 +84,10 @@ static void make_compute_groups(Compute *compute)
     compute->groups[1] = wgpuDeviceCreateBindGroup(world.device, &second);
 }
 
-static void run_compute(Compute *compute, const WGPUPassTimestampWrites *times)
+enum { SIZES_OFFSET = 8 };
+
+// With the numbers of workgroups from buffer `sizes`, if there is one.
+static void run_compute(Compute *compute, const WGPUPassTimestampWrites *times, WGPUBuffer sizes)
 {
     WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(world.device, NULL);
     WGPUComputePassDescriptor descriptor = {.label = weir_test_text("multiply"), .timestampWrites = times};
@@ -92,7 +95,10 @@ static void run_compute(Compute *compute, const WGPUPassTimestampWrites *times)
     wgpuComputePassEncoderSetPipeline(pass, compute->pipeline);
     wgpuComputePassEncoderSetBindGroup(pass, 0, compute->groups[0], 1, &(uint32_t){FACTOR_OFFSET});
     wgpuComputePassEncoderSetBindGroup(pass, 1, compute->groups[1], 0, NULL);
-    wgpuComputePassEncoderDispatchWorkgroups(pass, 2, 3, 1);
+    if (sizes)
+        wgpuComputePassEncoderDispatchWorkgroupsIndirect(pass, sizes, SIZES_OFFSET);
+    else
+        wgpuComputePassEncoderDispatchWorkgroups(pass, 2, 3, 1);
     wgpuComputePassEncoderEnd(pass);
     wgpuComputePassEncoderRelease(pass);
     weir_test_submit(encoder);
@@ -121,12 +127,36 @@ static int test_compute(uint32_t step)
         wgpuQueueWriteBuffer(world.queue, compute.uniforms, FACTOR_OFFSET, &(uint32_t){1000}, 4);
         for (uint32_t k = 0; k < NUMBERS; k++)
             wgpuQueueWriteBuffer(world.queue, compute.numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
-        run_compute(&compute, NULL);
+        run_compute(&compute, NULL, NULL);
     }
     AWAIT(weir_test_read(compute.results, 0, sizeof back, back));
     for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == 1000 * k);
     CHECK(world.error_count == 0);
     free_compute(&compute);
+    return DONE;
+}
+
+// Other sizes than those of the last 12 bytes would leave results at 0.
+static int test_compute_indirect(uint32_t step)
+{
+    static Compute compute;
+    static WGPUBuffer sizes;
+    static uint32_t back[NUMBERS];
+    if (step == 0) {
+        make_compute_pipeline(&compute);
+        make_compute_groups(&compute);
+        sizes = weir_test_buffer(WGPUBufferUsage_Indirect | WGPUBufferUsage_CopyDst, SIZES_OFFSET + 12);
+        wgpuQueueWriteBuffer(world.queue, sizes, 0, (uint32_t[]){1, 1, 2, 3, 1}, SIZES_OFFSET + 12);
+        wgpuQueueWriteBuffer(world.queue, compute.uniforms, FACTOR_OFFSET, &(uint32_t){7}, 4);
+        for (uint32_t k = 0; k < NUMBERS; k++)
+            wgpuQueueWriteBuffer(world.queue, compute.numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
+        run_compute(&compute, NULL, sizes);
+    }
+    AWAIT(weir_test_read(compute.results, 0, sizeof back, back));
+    for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == 7 * k);
+    CHECK(world.error_count == 0);
+    free_compute(&compute);
+    wgpuBufferRelease(sizes);
     return DONE;
 }
 
@@ -144,11 +174,11 @@ static int test_timestamps(uint32_t step)
         make_compute_groups(&compute);
         WGPUPassTimestampWrites both = {
             .querySet = compute.times, .beginningOfPassWriteIndex = 1, .endOfPassWriteIndex = 2};
-        run_compute(&compute, &both);
+        run_compute(&compute, &both, NULL);
         WGPUPassTimestampWrites last = {.querySet = compute.times,
                                         .beginningOfPassWriteIndex = WGPU_QUERY_SET_INDEX_UNDEFINED,
                                         .endOfPassWriteIndex = 3};
-        run_compute(&compute, &last);
+        run_compute(&compute, &last, NULL);
         WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(world.device, NULL);
         wgpuCommandEncoderResolveQuerySet(encoder, compute.times, 1, 3, resolved, 256);
         weir_test_submit(encoder);
@@ -419,6 +449,7 @@ const WeirTest weir_pass_tests[] = {
      "wgpuComputePassEncoderSetPipeline wgpuComputePassEncoderSetBindGroup "
      "wgpuComputePassEncoderDispatchWorkgroups wgpuComputePassEncoderEnd wgpuComputePassEncoderRelease",
      test_compute, false},
+    {"wgpuComputePassEncoderDispatchWorkgroupsIndirect", test_compute_indirect, false},
     {"wgpuDeviceCreateQuerySet wgpuCommandEncoderResolveQuerySet wgpuQuerySetRelease", test_timestamps,
      false},
     {"wgpuQuerySetDestroy", test_destroy_query_set, false},
