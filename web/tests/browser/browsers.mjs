@@ -67,13 +67,17 @@ export class Tab {
   }
 
   // Polls until `condition` (in the page) is true; what the page shows is in the message if it never is.
-  async until(what, condition, ...args) {
-    const end = Date.now() + 30_000;
+  until(what, condition, ...args) {
+    return this.within(30, what, condition, ...args);
+  }
+
+  async within(seconds, what, condition, ...args) {
+    const end = Date.now() + 1000 * seconds;
     for (;;) {
       if (await this.page.evaluate(condition, ...args)) return;
       if (Date.now() > end) {
         const shown = await this.page.evaluate(() => document.body.innerText.replaceAll('\n', ' ').slice(0, 600));
-        assert.fail(`${what}: not within 30 s. Errors: ${this.errors.join('; ') || 'none'}. The page shows: ${shown}`);
+        assert.fail(`${what}: not within ${seconds} s. Errors: ${this.errors.join('; ') || 'none'}. The page shows: ${shown}`);
       }
       await new Promise((resolve) => setTimeout(resolve, 60));
     }
