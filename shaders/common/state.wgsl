@@ -54,7 +54,7 @@ struct Control {
     allowance: u32,         // way after which lists made then may miss neighbours
     next_due: vec2u,        // time at which emitters may have a layer next
     next_allowance: u32,
-    unused: array<u32, 31>,
+    unused: array<u32, 31>, // what follows begins at 256 bytes
     speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
     acceleration_bits: u32, // have their order
     error_bits: u32,        // largest density error of the last step

@@ -5,9 +5,9 @@
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
-@compute @workgroup_size(WORKGROUP_SIZE)
-fn health(@builtin(local_invocation_index) local: u32) {
-    if local == 0u && control.bad_step != 0xffffffffu {
+@compute @workgroup_size(1)
+fn health() {
+    if control.bad_step != 0xffffffffu {
         control.bad_id = id[control.bad_slot];
         control.bad_place = coordinate_at(side_start(control.last_side) + control.bad_slot);
     }

@@ -5,7 +5,7 @@ uint64_t weir_padded_cells(uint64_t cells)
     return (cells + 1 + WEIR_SCAN_BLOCK - 1) / WEIR_SCAN_BLOCK * WEIR_SCAN_BLOCK;
 }
 
-static uint64_t most_bytes(const WeirGpu *gpu)
+uint64_t weir_buffers_most_bytes(const WeirGpu *gpu)
 {
     const WGPULimits *limits = &gpu->limits;
     return limits->maxStorageBufferBindingSize < limits->maxBufferSize ? limits->maxStorageBufferBindingSize
@@ -26,7 +26,7 @@ uint64_t weir_buffers_part_bytes(const WeirBuffers *buffers, uint32_t name)
 WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
                              const WeirConstants *constants, WeirMessage *message)
 {
-    uint64_t most = most_bytes(buffers->gpu);
+    uint64_t most = weir_buffers_most_bytes(buffers->gpu);
     for (uint32_t name = 0; name < buffers->count; ++name) {
         buffers->size[name] = sizes[name];
         if (buffers->size[name].copies == 0) buffers->size[name].copies = 1;

@@ -37,6 +37,8 @@ typedef struct WeirBuffers {
 // Entries of the arrays per cell: whole blocks of the scan, and at least one more than `cells`, because cell_start
 // ends with the particle count.
 uint64_t weir_padded_cells(uint64_t cells);
+// Bytes that a storage buffer may have, and be bound with.
+uint64_t weir_buffers_most_bytes(const WeirGpu *gpu);
 // Takes `sizes`, by name, and finds the parts. WEIR_ERROR_MEMORY with a message if the device's limits do not allow them.
 WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
                              const WeirConstants *constants, WeirMessage *message);

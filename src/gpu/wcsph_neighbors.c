@@ -81,10 +81,7 @@ static uint32_t lanes_for(double particles, double neighbors, bool software)
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
                          const WeirConstants *constants, const WeirGpu *gpu)
 {
-    const WGPULimits *limits = &gpu->limits;
-    uint64_t most_bytes = limits->maxStorageBufferBindingSize < limits->maxBufferSize
-                              ? limits->maxStorageBufferBindingSize
-                              : limits->maxBufferSize;
+    uint64_t most_bytes = weir_buffers_most_bytes(gpu);
     double support = (double)(1u << constants->coordinate_bits);
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;

@@ -116,46 +116,41 @@ static void free_compute(Compute *compute)
     wgpuBufferRelease(compute->results);
 }
 
-static int test_compute(uint32_t step)
+// With `sizes`, where other numbers of workgroups than the last ones would leave results at 0.
+static int multiply(uint32_t step, Compute *compute, uint32_t factor, WGPUBuffer sizes)
 {
-    static Compute compute;
     static uint32_t back[NUMBERS];
     if (step == 0) {
-        make_compute_pipeline(&compute);
-        make_compute_groups(&compute);
-        CHECK(compute.pipeline && compute.groups[0] && compute.groups[1]);
-        wgpuQueueWriteBuffer(world.queue, compute.uniforms, FACTOR_OFFSET, &(uint32_t){1000}, 4);
+        make_compute_pipeline(compute);
+        make_compute_groups(compute);
+        CHECK(compute->pipeline && compute->groups[0] && compute->groups[1]);
+        wgpuQueueWriteBuffer(world.queue, compute->uniforms, FACTOR_OFFSET, &factor, 4);
         for (uint32_t k = 0; k < NUMBERS; k++)
-            wgpuQueueWriteBuffer(world.queue, compute.numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
-        run_compute(&compute, NULL, NULL);
+            wgpuQueueWriteBuffer(world.queue, compute->numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
+        if (sizes)
+            wgpuQueueWriteBuffer(world.queue, sizes, 0, (uint32_t[]){1, 1, 2, 3, 1}, SIZES_OFFSET + 12);
+        run_compute(compute, NULL, sizes);
     }
-    AWAIT(weir_test_read(compute.results, 0, sizeof back, back));
-    for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == 1000 * k);
+    AWAIT(weir_test_read(compute->results, 0, sizeof back, back));
+    for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == factor * k);
     CHECK(world.error_count == 0);
-    free_compute(&compute);
+    free_compute(compute);
     return DONE;
 }
 
-// Other sizes than those of the last 12 bytes would leave results at 0.
+static int test_compute(uint32_t step)
+{
+    static Compute compute;
+    return multiply(step, &compute, 1000, NULL);
+}
+
 static int test_compute_indirect(uint32_t step)
 {
     static Compute compute;
     static WGPUBuffer sizes;
-    static uint32_t back[NUMBERS];
-    if (step == 0) {
-        make_compute_pipeline(&compute);
-        make_compute_groups(&compute);
+    if (step == 0)
         sizes = weir_test_buffer(WGPUBufferUsage_Indirect | WGPUBufferUsage_CopyDst, SIZES_OFFSET + 12);
-        wgpuQueueWriteBuffer(world.queue, sizes, 0, (uint32_t[]){1, 1, 2, 3, 1}, SIZES_OFFSET + 12);
-        wgpuQueueWriteBuffer(world.queue, compute.uniforms, FACTOR_OFFSET, &(uint32_t){7}, 4);
-        for (uint32_t k = 0; k < NUMBERS; k++)
-            wgpuQueueWriteBuffer(world.queue, compute.numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
-        run_compute(&compute, NULL, sizes);
-    }
-    AWAIT(weir_test_read(compute.results, 0, sizeof back, back));
-    for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == 7 * k);
-    CHECK(world.error_count == 0);
-    free_compute(&compute);
+    AWAIT(multiply(step, &compute, 7, sizes));
     wgpuBufferRelease(sizes);
     return DONE;
 }
