@@ -39,7 +39,9 @@ export class StatusLine {
   update(now: number, engine: Engine, paused: boolean): void {
     const { stats } = engine;
     const wall = now - this.#since;
-    if (stats.time < this.#sinceTime || stats.frames < this.#sinceFrames) this.restart(now, engine);
+    // A picture that stands still is hardly drawn: the rates are those from before.
+    const held = paused && this.fps > 0;
+    if (held || stats.time < this.#sinceTime || stats.frames < this.#sinceFrames) this.restart(now, engine);
     else if (wall >= windowMs || (this.fps === 0 && wall >= windowMs / 4)) {
       const frames = stats.frames - this.#sinceFrames;
       this.fps = (1000 * frames) / wall;
