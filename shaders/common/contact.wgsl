@@ -2,12 +2,14 @@
 // search for themselves. And how solids move, where the fluid wants to know.
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 
-// A last barrier keeps fast fluid out of walls: docs/wcsph.md.
+// A last barrier keeps fast fluid out of walls, and lets go of what two solids squeeze: docs/wcsph.md.
 const BARRIER_RANGE = 0.85; // spacings
 const BARRIER_STRENGTH = 4.0;
 const BRAKE_RANGE = 2.0;    // spacings
 const BRAKE_STRENGTH = 2.4; // over the Courant number
 const BRAKE_LIMIT = 0.1;    // c0
+const BARRIER_SHARE = 0.5;  // of overlap and approach, that one step may take
+const START_PACE = 1000.0;  // before the first step: no bound
 
 fn quanta_of_spacings(count: f32) -> f32 {
     return count * parameters.particle_spacing * constants.inverse_quantum;
@@ -48,6 +50,10 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
     let brake_range = quanta_of_spacings(BRAKE_RANGE);
     let solid = is_solid(u32(own.w));
     let start = reading_start();
+    // One spacing per step, over the speed of sound.
+    let step = constants.sound_speed * control.dt;
+    let pace = select(START_PACE, parameters.particle_spacing / step, step > 0.0);
+    let share = BARRIER_SHARE * pace;
     var sum = Vector();
     var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
@@ -60,10 +66,12 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
             let mixed = u32(other.w) != GROUP_EMPTY && is_solid(u32(other.w)) != solid;
             if mixed && near > 0.0 {
                 let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
+                let overlap = max(barrier_range - r, 0.0) / quanta_of_spacings(1.0);
                 let approach = -dot(approach_velocity(own, own_motion, other, motion_at(start + j)), offset)
                     / (r * constants.sound_speed);
-                let brake = BRAKE_STRENGTH / parameters.courant * near * max(approach - BRAKE_LIMIT, 0.0);
-                sum += ((push + brake) / r) * offset;
+                let bounded = min(push, share * (pace * overlap + max(approach, 0.0)));
+                let rate = min(BRAKE_STRENGTH / parameters.courant * near, share);
+                sum += ((bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
             }
         }
     }

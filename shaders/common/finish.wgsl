@@ -55,10 +55,12 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
     // The next step sees it: what this one began with, half a step ago, is the last good state, and nothing may run over it.
 }
 
-// The seal of the domain's own walls: no fluid gets deeper into them than one spacing.
+// The seal of the domain's own walls: no fluid stays deeper in them than half a spacing, where their first layer lies.
+const SEAL_DEPTH = 0.45; // spacings
+
 fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
     let origin = vector_of(constants.origin);
-    let depth = Vector(parameters.particle_spacing);
+    let depth = Vector(SEAL_DEPTH * parameters.particle_spacing);
     let low = (vector_of(constants.domain_min) - depth - origin) * constants.inverse_quantum;
     let high = (vector_of(constants.domain_max) + depth - origin) * constants.inverse_quantum;
     for (var axis = 0u; axis < DIMENSION; axis++) {

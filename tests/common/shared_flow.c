@@ -137,9 +137,11 @@ static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *b
     CHECK_CONTAINS(weir_sim_error(sim), "stepping adaptive");
     float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
           *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+    // It may be one in the middle of a step, half of which the fastest good particle has gone from the walls' seal.
+    double limit = 4 * weir_sim_clock(sim).sound_speed, reach = 0.02 + limit * 2.5 * stable;
     for (uint32_t k = 0; k < 2 * weir_sim_fluid_slots(sim); ++k) {
-        assert_true(isfinite(velocity[k]) && fabsf(velocity[k]) <= 4 * weir_sim_clock(sim).sound_speed);
-        assert_true(position[k] > -0.1f && position[k] < 0.5f);
+        assert_true(isfinite(velocity[k]) && fabsf(velocity[k]) <= limit);
+        assert_true(position[k] > -reach && position[k] < 0.4 + reach);
     }
     free(position);
     free(velocity);
@@ -215,7 +217,47 @@ static void walls_hold_fast_fluid(const WeirBackend *backend)
     }
 }
 
-// Adds the momentum of the only solid, of that mass.
+// A heavy ball, or a crate, sinks to the ground: what it squeezes there gets no energy from the two that squeeze it, and stays in
+// the tank. (Particles between a body and a wall were thrown from one to the other until they flew apart.)
+static void bodies_sink_to_the_ground(const WeirBackend *backend)
+{
+    for (int n = 0; n < 4; ++n) {
+        uint32_t dimension = n < 2 ? 2 : 3;
+        double spacing = n < 2 ? 0.0125 : 0.025;
+        WeirScene *scene = tank(dimension, 0.5, 0.4, spacing);
+        add_box(scene, 0, 0.5, 0.2);
+        if (n % 2 == 0) {
+            CHECK_SCENE(scene,
+                        weir_scene_set_numbers(scene, "bodies[0].ball.center", (double[]){0.26, 0.13, 0.2},
+                                               dimension),
+                        WEIR_OK);
+            CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].ball.radius", 0.1), WEIR_OK);
+        } else {
+            CHECK_SCENE(
+                scene,
+                weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.15, 0.05, 0.1}, dimension),
+                WEIR_OK);
+            CHECK_SCENE(
+                scene,
+                weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.35, 0.15, 0.3}, dimension),
+                WEIR_OK);
+        }
+        CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 5000), WEIR_OK);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
+        double largest = 0;
+        for (double time = 0.02; time < 0.31; time += 0.02) {
+            CHECK_SIM(sim, weir_sim_run_until(sim, time), WEIR_OK);
+            WeirDiagnostics found = weir_test_diagnose(sim, false);
+            assert_int_equal(found.lost_particles, 0);
+            largest = fmax(largest, found.max_speed);
+        }
+        assert_true(largest < 0.5 * weir_sim_clock(sim).sound_speed);
+        assert_int_equal(weir_sim_clock(sim).fluid_particles, weir_sim_fluid_slots(sim));
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 // Shifting goes by the fluid's largest speed, but one particle that flies at half the speed of sound, far off, must not shake a block
 // at rest: it did, until whole dam breaks flew apart.
 static void a_flyer_shakes_nothing_else(const WeirBackend *backend)
@@ -242,6 +284,7 @@ static void a_flyer_shakes_nothing_else(const WeirBackend *backend)
     assert_true(energy[1] < 1.5 * energy[0] + 1e-6);
 }
 
+// Adds the momentum of the only solid, of that mass.
 static void add_body_momentum(WeirSim *sim, double mass, double momentum[3])
 {
     uint32_t dimension = weir_sim_dimension(sim), first = weir_sim_fluid_slots(sim),
@@ -536,6 +579,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_slow_speed_of_sound_is_told),
     WEIR_SHARED_TEST(walls_hold_a_splash),
     WEIR_SHARED_TEST(walls_hold_fast_fluid),
+    WEIR_SHARED_TEST(bodies_sink_to_the_ground),
     WEIR_SHARED_TEST(a_flyer_shakes_nothing_else),
     WEIR_SHARED_TEST(shifting_makes_no_pairs),
     WEIR_SHARED_TEST(a_standing_sound_wave_keeps_its_energy),

@@ -232,8 +232,9 @@ static void walks_find_what_lists_find(void **state)
         gpu->limits.maxStorageBufferBindingSize = own;
         assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_parts, 0);
         begin_anew(on_gpu, &test, lanes[n]);
-        take_steps(on_gpu, 40, INFINITY);
-        take_steps(on_cpu, 40, INFINITY);
+        // (After 40 a wall's particle has its only fluid at the very end of its support: no pressure, or all of it.)
+        take_steps(on_gpu, 36, INFINITY);
+        take_steps(on_cpu, 36, INFINITY);
         compare(names[n], &test, on_gpu, on_cpu, 2e-3);
         on_gpu->interface->destroy(on_gpu);
         on_cpu->interface->destroy(on_cpu);

@@ -235,13 +235,15 @@ static void note_bad(Maxima *maxima, const uint32_t *id, WeirMask bad)
     }
 }
 
-// The seal of the domain's own walls: no free fluid gets deeper into them than one spacing.
+// The seal of the domain's own walls: no free fluid stays deeper in them than half a spacing, where their first layer lies.
+static const float seal_depth = 0.45f; // spacings
+
 static inline void seal(const WeirWcsph *solver, uint32_t axis, WeirMask free, WeirMask *x, WeirLanes *v)
 {
     const WeirConstants *constants = &solver->constants;
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     const WeirLanes zero = {0};
-    float depth = solver->parameters.particle_spacing;
+    float depth = seal_depth * solver->parameters.particle_spacing;
     float low = (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
     float high = (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
     bool open_low = constants->open_sides >> (2 * axis) & 1,

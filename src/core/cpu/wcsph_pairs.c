@@ -80,6 +80,11 @@ INLINE Vector less(Vector a, const float *const array[3], uint32_t j, Variant va
     return v;
 }
 
+INLINE WeirLanes lanes_min(WeirLanes a, WeirLanes b)
+{
+    return -weir_lanes_max(-a, -b);
+}
+
 INLINE WeirLanes lanes_power4(WeirLanes a)
 {
     WeirLanes square = a * a;
@@ -200,7 +205,8 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
 
 // A last barrier keeps fast fluid out of walls. Nearer than 0.85 spacings, where fluid at rest hardly comes, solid
 // particles repel it; nearer than two they brake what approaches faster than a tenth of the speed of sound, more
-// than the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing.
+// than the method is valid for: so that nothing leaks at the speed of sound, and slower flow feels nothing. In one step neither
+// takes more than half of the overlap and of the approach: a particle between a body and a wall is thrown back by both.
 // Spray, with less than half of its support filled (a flat surface has more), forgets tension within h / c0: stretched for
 // good, it would pull at whatever it meets. Ragged fluid forgets pressure that neither weight nor motion explain: oscillations
 // of a few particles would gain energy by the Laplacian of full fluid.
@@ -211,7 +217,8 @@ static const float full_support = 0.98f, volume_time = 1000.0f;
 // More than a tenth too many particles make themselves felt at once. Time: h / c0.
 static const float crowded_limit = 1.1f, crowded_time = 10.0f;
 static const float barrier_range = 0.85f, barrier_strength = 4.0f;
-static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f;
+static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f, barrier_share = 0.5f;
+static const float start_pace = 1000.0f; // before the first step: no bound
 
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
@@ -233,10 +240,18 @@ typedef struct ForceSums {
 typedef struct ForceLanes {
     float inverse_support, inverse_spacing;
     float second_half_in_supports;               // 3/2 of second_half, in supports
+    float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
     WeirLanes support2, stick, barrier_reach, pressure;
     Vector seen_velocity, velocity;
 } ForceLanes;
+
+static float barrier_pace(const WeirWcsphData *data)
+{
+    float dt = 2.0f * data->second_half * data->constants->quantum;
+    float step = data->constants->sound_speed * dt;
+    return step > 0.0f ? data->parameters->particle_spacing / step : start_pace;
+}
 
 INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant variant)
 {
@@ -250,6 +265,7 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
         .laminar = constants->laminar_factor != 0.0f,
         .friction = constants->friction_factor != 0.0f,
         .clustering = data->parameters->shifting != 0.0f,
+        .barrier_pace = barrier_pace(data),
         .barrier_reach =
             weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
         .support2 = weir_lanes_fill(1.0f / (constants->inverse_support * constants->inverse_support)),
@@ -274,6 +290,10 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes push = weir_lanes_max(range / r - 1.0f, zero) * barrier_strength;
     WeirLanes near = rest_to(1.0f, r * inverse_brake) * (brake_strength / data->parameters->courant);
     WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
+    float share = barrier_share * own->barrier_pace;
+    WeirLanes overlap = weir_lanes_max(range - r, zero) * (own->barrier_pace / spacing);
+    push = lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
+    near = lanes_min(near, weir_lanes_fill(share));
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
@@ -289,7 +309,7 @@ INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, 
         return weir_lanes_select((WeirMask)(r2 < own->support2), slope, zero);
     }
     WeirLanes q = rest_to(1.0f, s), end = q - own->second_half_in_supports * inverse_r * growth;
-    return q * q * -weir_lanes_max(-weir_lanes_max(end, zero), weir_lanes_fill(-1.0f)); // at most 1
+    return q * q * lanes_min(weir_lanes_max(end, zero), weir_lanes_fill(1.0f));
 }
 
 // What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
