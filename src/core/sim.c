@@ -297,7 +297,7 @@ static void warn_of_compression(WeirSim *sim)
     sim->warned_of_compression = true;
     weir_fail(
         &sim->warning, WEIR_OK,
-        "step %llu: the fluid is too fast or too compressed for its speed of sound: Mach number %.2g (0.1 is "
+        "step %llu: the fluid is too fast or too compressed for its speed of sound: Mach number %.3g (0.1 is "
         "the most "
         "for nearly incompressible flow), density error %.2g %% (3 %%). Raise expected_speed above %.3g m/s",
         (unsigned long long)sim->steps, mach, 100.0 * error,

@@ -255,7 +255,6 @@ export class App implements PanelHost {
   #started(): void {
     this.#lastGood = this.store.document;
     this.notes.clear('fault');
-    this.notes.clear('advice');
     this.#advice = '';
     this.plot.clear();
     this.#showScene();
@@ -283,11 +282,11 @@ export class App implements PanelHost {
     this.#warn();
   }
 
-  // What the simulation itself warns of while it runs: shown once per run.
+  // What the simulation itself warns of while it runs: shown once per run, for a while; then the status line keeps it.
   #advise(warning: string): void {
     if (warning === this.#advice) return;
     this.#advice = warning;
-    if (warning && warning !== this.store.derived.warning) this.notes.show('advice', 'warning', warning);
+    if (warning && warning !== this.store.derived.warning) this.notes.toast('warning', warning);
   }
 
   #stepIsTooLarge(): boolean {
@@ -380,7 +379,6 @@ export class App implements PanelHost {
 
   restart(): void {
     this.notes.clear('fault');
-    this.notes.clear('advice');
     this.#advice = '';
     this.plot.clear();
     this.engine?.reset();

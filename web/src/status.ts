@@ -70,7 +70,7 @@ export class StatusLine {
   }
 
   // What tells whether the numbers are to be trusted.
-  #methodCells({ clock, diagnostics }: EngineStats): Cell[] {
+  #methodCells({ clock, diagnostics, warning }: EngineStats): Cell[] {
     if (!clock) {
       return [
         cell(formatNumber(this.stepsPerFrame, 2), 'steps/frame'),
@@ -80,8 +80,8 @@ export class StatusLine {
     const { timeStep, machNumber, maxDensityError } = clock;
     return [
       cell(`${formatNumber(1000 * timeStep, 3)} ms`, 'time step'),
-      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : '', 'Of the fastest particle: its speed over the speed of sound'),
-      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : '', 'The largest of all particles'),
+      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : '', advised('Of the fastest particle: its speed over the speed of sound', warning)),
+      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : '', advised('The largest of all particles', warning)),
     ];
   }
 
@@ -102,5 +102,7 @@ export class StatusLine {
     this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${formatNumber(this.stepsPerFrame, 2)} steps per frame   ·   ${stats.time.toFixed(2)} s simulated`;
   }
 }
+
+const advised = (title: string, warning: string): string => (warning ? `${title}\n\n${warning}` : title);
 
 const cell = (value: string, label: string, className = '', title = ''): Cell => ({ value, label, className, title });
