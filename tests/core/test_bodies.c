@@ -85,8 +85,7 @@ static void nothing_squeezed_blows_up(void **state)
         weir_test_set(scene, "expected_speed", 4);
         CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){1.6, 1, 0.5}),
                     WEIR_OK);
-        CHECK_SCENE(scene,
-                    weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 0.3, 0.5}, NULL),
+        CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 0.3, 0.5}, NULL),
                     WEIR_OK);
         for (uint32_t n = 0; n < BODIES; ++n) add_body(scene, n, &random);
         if (round % 2 == 0) add_paddle(scene);
