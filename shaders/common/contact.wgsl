@@ -51,8 +51,8 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
     let solid = is_solid(u32(own.w));
     let start = reading_start();
     // One spacing per step, over the speed of sound.
-    let step = constants.sound_speed * control.dt;
-    let pace = select(START_PACE, parameters.particle_spacing / step, step > 0.0);
+    let sound_way = constants.sound_speed * control.dt;
+    let pace = select(START_PACE, parameters.particle_spacing / sound_way, sound_way > 0.0);
     let share = BARRIER_SHARE * pace;
     var sum = Vector();
     var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));

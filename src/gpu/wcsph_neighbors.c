@@ -39,9 +39,9 @@ static bool is_short(const WeirConstants *constants, double reach)
 
 uint64_t weir_gpu_wcsph_list_bytes(uint32_t particle_count, uint32_t parts)
 {
+    if (parts == 0) return 16; // nobody looks
     // Those of 128 particles side by side. A reader looks up to eight chunks, four parts, beyond a list's end.
     uint64_t blocks = ((uint64_t)particle_count + 127) / 128;
-    if (parts == 0) return 16; // nobody looks
     return 16 * 128 * (blocks * (parts + 1) + 4);
 }
 

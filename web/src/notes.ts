@@ -32,7 +32,7 @@ export class Notes {
   toast(kind: NoteKind, text: string): void {
     for (const child of this.#container.children) {
       if (!(child instanceof HTMLElement) || child.dataset['toast'] === undefined) continue;
-      if (kind !== 'info' || !child.classList.contains('error')) child.remove(); // what failed is read first
+      if (kind === 'error' || !child.classList.contains('error')) child.remove(); // what failed is read first
     }
     const note = this.#make(kind, text, [], () => note.remove());
     note.dataset['toast'] = '';

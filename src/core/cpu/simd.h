@@ -30,7 +30,7 @@ enum { WEIR_LANES = 4 };
 typedef float WeirLanes __attribute__((vector_size(4 * WEIR_LANES)));
 typedef int32_t WeirMask __attribute__((vector_size(4 * WEIR_LANES)));
 
-// Beside these: weir_lanes_sqrt, weir_lanes_max and weir_lanes_any_below (a < b in at least one lane), per target;
+// Beside these: weir_lanes_sqrt, weir_lanes_max (and weir_lanes_min) and weir_lanes_any_below (a < b in at least one lane), per target;
 // weir_lanes_store_where stores the lanes whose mask is set.
 static inline WeirLanes weir_lanes_load(const float *values)
 {
@@ -177,6 +177,11 @@ static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
     return any != 0;
 }
 #endif
+
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    return -weir_lanes_max(-a, -b);
+}
 
 #if !defined(__AVX512F__)
 static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)

@@ -257,7 +257,7 @@ static inline void seal(const WeirWcsph *solver, uint32_t axis, WeirMask free, W
     if (!open_high) {
         WeirMask above = (WeirMask)(__builtin_convertvector(*x, WeirLanes) > high) & free;
         *x = select_places(above, free - free + (int32_t)high, *x);
-        *v = weir_lanes_select(above, -weir_lanes_max(-*v, zero), *v);
+        *v = weir_lanes_select(above, weir_lanes_min(*v, zero), *v);
     }
 }
 

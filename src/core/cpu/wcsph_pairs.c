@@ -80,11 +80,6 @@ INLINE Vector less(Vector a, const float *const array[3], uint32_t j, Variant va
     return v;
 }
 
-INLINE WeirLanes lanes_min(WeirLanes a, WeirLanes b)
-{
-    return -weir_lanes_max(-a, -b);
-}
-
 INLINE WeirLanes lanes_power4(WeirLanes a)
 {
     WeirLanes square = a * a;
@@ -249,8 +244,8 @@ typedef struct ForceLanes {
 static float barrier_pace(const WeirWcsphData *data)
 {
     float dt = 2.0f * data->second_half * data->constants->quantum;
-    float step = data->constants->sound_speed * dt;
-    return step > 0.0f ? data->parameters->particle_spacing / step : start_pace;
+    float sound_way = data->constants->sound_speed * dt;
+    return sound_way > 0.0f ? data->parameters->particle_spacing / sound_way : start_pace;
 }
 
 INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant variant)
@@ -292,8 +287,8 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes approach = dot(v, x, variant) / r * (-1.0f / constants->sound_speed);
     float share = barrier_share * own->barrier_pace;
     WeirLanes overlap = weir_lanes_max(range - r, zero) * (own->barrier_pace / spacing);
-    push = lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
-    near = lanes_min(near, weir_lanes_fill(share));
+    push = weir_lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
+    near = weir_lanes_min(near, weir_lanes_fill(share));
     add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
 }
 
@@ -309,7 +304,7 @@ INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, 
         return weir_lanes_select((WeirMask)(r2 < own->support2), slope, zero);
     }
     WeirLanes q = rest_to(1.0f, s), end = q - own->second_half_in_supports * inverse_r * growth;
-    return q * q * lanes_min(weir_lanes_max(end, zero), weir_lanes_fill(1.0f));
+    return q * q * weir_lanes_min(weir_lanes_max(end, zero), weir_lanes_fill(1.0f));
 }
 
 // What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
