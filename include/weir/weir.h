@@ -154,7 +154,8 @@ const WeirScene *weir_sim_scene(const WeirSim *sim);  // as it runs now, changed
 WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps);
 // Takes the steps due after `wall_seconds` more of wall time: fixed-step accumulator, so the speed depends on
 // no display. Time that would need more than max_steps, or is older than max_lag, is dropped, never owed.
-// *steps_taken (may be NULL) gets the number of steps.
+// *steps_taken (may be NULL) gets the number of steps; on the GPU they are queued, so weir_sim_step_count() may
+// follow later.
 WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_taken);
 void weir_sim_set_max_steps(WeirSim *sim, uint32_t max_steps); // see WeirSimOptions; 0: 64
 // Lets asynchronous work go on and checks for NaN, blow-up, lost particles and device faults. Never blocks.

@@ -285,7 +285,9 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     sim->owed = due > sim->max_steps ? 0.0 : sim->owed - steps * dt;
     uint64_t before = sim->steps;
     WeirStatus status = weir_sim_step(sim, steps);
-    *steps_taken = (uint32_t)(sim->steps - before);
+    // Those queued: a device's own count comes later. Where a step failed, those before it.
+    bool given = status == WEIR_OK || status == WEIR_PENDING;
+    *steps_taken = given ? steps : (uint32_t)(sim->steps - before);
     return status;
 }
 

@@ -569,6 +569,30 @@ static void crowded_fluid_spreads(const WeirBackend *backend)
     }
 }
 
+// Whoever paces frames divides their time by the steps that they took: these are told when they are queued, though a
+// device's clock comes to know of them later. The simulated time follows the wall's.
+static void advance_tells_the_steps_that_it_queues(const WeirBackend *backend)
+{
+    WeirScene *scene = tank(2, 1, 0.5, 0.02);
+    add_box(scene, 0, 0.3, 0.3);
+    WeirSim *sim = weir_test_sim(scene, backend, 0);
+    weir_test_step(sim, 1);
+    CHECK_SIM(sim, weir_sim_wait(sim), WEIR_OK);
+    double start = weir_sim_time(sim), frame = 5.5 * weir_sim_clock(sim).time_step;
+    uint64_t before = weir_sim_step_count(sim), total = 0;
+    for (int n = 0; n < 20; ++n) {
+        uint32_t taken = 0;
+        CHECK_SIM(sim, weir_sim_advance(sim, frame, &taken), WEIR_OK);
+        assert_in_range(taken, 3, 12);
+        total += taken;
+    }
+    CHECK_SIM(sim, weir_sim_wait(sim), WEIR_OK);
+    assert_int_equal(weir_sim_step_count(sim) - before, total);
+    CHECK_NEAR(weir_sim_time(sim) - start, 20 * frame, 0.1 * 20 * frame);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_body_gets_what_the_fluid_loses),
     WEIR_SHARED_TEST(a_far_column_falls_as_the_near_one),
@@ -586,5 +610,6 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(noise_fades),
     WEIR_SHARED_TEST(ragged_fluid_loses_energy),
     WEIR_SHARED_TEST(crowded_fluid_spreads),
+    WEIR_SHARED_TEST(advance_tells_the_steps_that_it_queues),
 };
 WEIR_SHARED_GROUP(flow, tests);

@@ -38,6 +38,18 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    // A frame takes as many steps as there is time for, or the fluid moves in slow motion on a fast card.
+    for (const backend of ['gpu', 'cpu']) {
+      test(`takes the steps that a frame has time for (${backend})`, async () => {
+        const tab = await open(`backend=${backend}&scene=dam_2d&particles=300`);
+        await tab.engine(backend === 'gpu' ? 'gpu' : 'worker');
+        await tab.until('more than two steps in a frame', () => window.weir.engine.stats.frameSteps > 2);
+        const { stepMs, steps, frameSteps } = await tab.evaluate(() => window.weir.engine.stats);
+        assert.ok(stepMs > 0 && stepMs < 100 && steps >= frameSteps, `${stepMs} ms per step, ${steps} steps`);
+        await tab.close();
+      });
+    }
+
     test('shows its first frame soon', async (context) => {
       const tab = await open('backend=cpu');
       await tab.frames(1);
