@@ -19,7 +19,7 @@ check: ## run every test: both compilers, sanitizers, wasm, Node, Chromium and F
 	@tools/setup.sh native web check
 	@tools/check.sh
 
-bench: ## measure speed: C, GPU, wasm and plain JavaScript; tables go to build/bench (SUITE=quick|step|scaling|nasty|default, COMPARE=FILE)
+bench: ## measure speed: C, GPU, wasm and plain JavaScript; tables go to build/bench (SUITE=quick|step|calm|scaling|nasty|default, COMPARE=FILE)
 	@tools/setup.sh native web
 	@tools/build.sh native page
 	@bench/run.sh

@@ -6,6 +6,7 @@
 #include <string.h>
 
 static const double spacing = 0.01;
+static const double sound_speed = 30.0; // m/s, of fluid without weight
 static const double full_turn = 6.283185307179586;
 enum { PARTICLES_PER_EMITTER = 1000, MOST_EMITTERS = 1024 };
 
@@ -22,6 +23,8 @@ static const WeirBenchCase cases[] = {
     {"pool_3d", WEIR_BENCH_POOL, 3, 2.1},
     {"box_2d", WEIR_BENCH_BOX, 2, 2.5},
     {"box_3d", WEIR_BENCH_BOX, 3, 2.1},
+    {"calm_2d", WEIR_BENCH_CALM, 2, 2.5},
+    {"calm_3d", WEIR_BENCH_CALM, 3, 2.1},
     {"box_2d_n45", WEIR_BENCH_BOX, 2, 0.0},
     {"box_3d_n111", WEIR_BENCH_BOX, 3, 0.0},
     {"box_3d_n165", WEIR_BENCH_BOX, 3, 3.46},
@@ -131,7 +134,7 @@ static Shape shape_of(uint32_t dimension, double count, double width, double hei
 static void set_weightless(WeirScene *scene)
 {
     weir_scene_set_numbers(scene, "parameters.gravity", (double[]){0.0, 0.0, 0.0}, 3);
-    weir_scene_set_number(scene, "parameters.sound_speed", 30.0);
+    weir_scene_set_number(scene, "parameters.sound_speed", sound_speed);
 }
 
 // Fluid in space: domain from -below to above times its sides, nothing but open sides around.
@@ -212,6 +215,7 @@ static Shape make_shape(WeirScene *scene, const WeirBenchCase *bench_case, uint3
         shape.max[1] = whole(3.0 * shape.size[1] / spacing);
         break;
     case WEIR_BENCH_BOX:
+    case WEIR_BENCH_CALM:
         set_weightless(scene);
         break;
     case WEIR_BENCH_CORNER:
@@ -263,9 +267,8 @@ WeirScene *weir_bench_scene(const WeirBenchCase *bench_case, uint32_t count)
 // ---- From the start to what is measured ----
 
 // A lattice of vortices of about 16 spacings, which no side of the box cuts: u = U sin kx cos ky, v = -U cos kx sin ky.
-static void stir(const WeirSim *sim, const float *position, float *velocity)
+static void stir(const WeirSim *sim, double speed, const float *position, float *velocity)
 {
-    static const double speed = 3.0; // a tenth of the speed of sound
     double min[3], max[3];
     weir_scene_domain(weir_sim_scene(sim), min, max);
     double k[2];
@@ -297,10 +300,11 @@ static WeirStatus replace_state(const WeirBenchCase *bench_case, WeirSim *sim)
     WeirStatus status = position && velocity ? WEIR_OK : WEIR_ERROR_MEMORY;
     if (!status) status = weir_sim_read(sim, WEIR_FIELD_POSITION, position, floats);
     if (!status) {
-        if (bench_case->kind == WEIR_BENCH_BOX) {
-            stir(sim, position, velocity);
-        } else {
+        if (bench_case->kind == WEIR_BENCH_COMPRESSED) {
             compress(sim, position);
+        } else {
+            double mach = bench_case->kind == WEIR_BENCH_CALM ? 1.0 / 30.0 : 0.1;
+            stir(sim, mach * sound_speed, position, velocity);
         }
         status = weir_sim_set_state(sim, position, velocity);
     }
@@ -311,7 +315,8 @@ static WeirStatus replace_state(const WeirBenchCase *bench_case, WeirSim *sim)
 
 WeirStatus weir_bench_prepare(const WeirBenchCase *bench_case, WeirSim *sim)
 {
-    if (bench_case->kind == WEIR_BENCH_BOX || bench_case->kind == WEIR_BENCH_COMPRESSED)
+    if (bench_case->kind == WEIR_BENCH_BOX || bench_case->kind == WEIR_BENCH_CALM ||
+        bench_case->kind == WEIR_BENCH_COMPRESSED)
         return replace_state(bench_case, sim);
     if (bench_case->kind != WEIR_BENCH_SPLASH) return WEIR_OK;
     // The front is at the other side after about 1.5 sqrt(H/g).

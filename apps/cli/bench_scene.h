@@ -14,10 +14,11 @@ typedef enum WeirBenchKind {
     WEIR_BENCH_SPLASH,     // the same when it has hit the other side
     WEIR_BENCH_POOL,       // at rest in such a tank, with a free surface
     WEIR_BENCH_BOX,        // a closed box of wall particles, full, stirred by vortices at Mach 0.1
-    WEIR_BENCH_CORNER,     // a block in 1 % of its domain
-    WEIR_BENCH_FAR,        // a block, and one fast particle 30 of its sides away along each axis
-    WEIR_BENCH_THIN,       // a sheet (3D: a rod) 1000 times as long as high
-    WEIR_BENCH_EMITTERS,   // a pool under one emitter per 1000 particles, at most as many as a scene may have
+    WEIR_BENCH_CALM, // the same at Mach 0.033: a step moves no particle by more than a hundredth of the support
+    WEIR_BENCH_CORNER,   // a block in 1 % of its domain
+    WEIR_BENCH_FAR,      // a block, and one fast particle 30 of its sides away along each axis
+    WEIR_BENCH_THIN,     // a sheet (3D: a rod) 1000 times as long as high
+    WEIR_BENCH_EMITTERS, // a pool under one emitter per 1000 particles, at most as many as a scene may have
 } WeirBenchKind;
 
 typedef struct WeirBenchCase {
@@ -30,7 +31,8 @@ typedef struct WeirBenchCase {
 // Names of all cases, separated by '|'.
 #define WEIR_BENCH_CASES                                                                                     \
     "article|n20|block_2d|block_3d|dam_2d|dam_3d|splash_2d|splash_3d|pool_2d|pool_3d|box_2d|box_3d|"         \
-    "box_2d_n45|box_3d_n111|box_3d_n165|corner_2d|corner_3d|far_2d|far_3d|thin_2d|thin_3d|emitters_2d|"      \
+    "calm_2d|calm_3d|box_2d_n45|box_3d_n111|box_3d_n165|corner_2d|corner_3d|far_2d|far_3d|thin_2d|thin_3d|"  \
+    "emitters_2d|"                                                                                           \
     "emitters_3d|compressed_2d|compressed_3d"
 
 // NULL if there is none of that name.

@@ -19,6 +19,12 @@ static const WeirBenchItem step[] = {
     {"article", 32768, -1},  {"box_3d_n165", 4 * M, -1},
 };
 
+// The boxes of `step`, whose fluid moves no farther in a step than the prototype of docs/performance.md allows.
+static const WeirBenchItem calm[] = {
+    {"calm_2d", 32768, -1},   {"calm_2d", 100 * K, -1}, {"calm_2d", 1 * M, -1}, {"calm_2d", 4 * M, -1},
+    {"calm_3d", 100 * K, -1}, {"calm_3d", 1 * M, -1},   {"calm_3d", 4 * M, -1},
+};
+
 // What does not fit is left out.
 static const WeirBenchItem scaling[] = {
     {"box_3d", 1 * M, -1}, {"box_3d", 4 * M, 0},  {"box_3d", 16 * M, 0},
@@ -45,6 +51,7 @@ static const WeirBenchItem defaults[] = {
 static const WeirBenchSuite suites[] = {
     SUITE("quick", "a minute on two cores", quick),
     SUITE("step", "the targets of docs/performance.md", step),
+    SUITE("calm", "the same boxes, stirred slowly", calm),
     SUITE("scaling", "3D, 1 M to 100 M particles, as many as fit", scaling),
     SUITE("nasty", "what a neighbour search may trip over", nasty),
     SUITE("default", "boxes at the default supports", defaults),

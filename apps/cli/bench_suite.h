@@ -16,7 +16,7 @@ typedef struct WeirBenchSuite {
 } WeirBenchSuite;
 
 // Names of all suites, separated by '|'.
-#define WEIR_BENCH_SUITES "quick|step|scaling|nasty|default"
+#define WEIR_BENCH_SUITES "quick|step|calm|scaling|nasty|default"
 
 // NULL if there is none of that name.
 const WeirBenchSuite *weir_bench_suite(const char *name);

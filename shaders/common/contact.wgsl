@@ -88,7 +88,7 @@ fn contact_force(own: vec4i) -> Vector {
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
     let start = reading_start();
-    var walk = walk_around(place_of(own), i32(1u << constants.coordinate_bits) + i32(way_since_sort()));
+    var walk = walk_around(place_of(own), i32(quanta_of_spacings(1.0)) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var j = cell_start[walk.first_cell]; j < end; j++) {

@@ -54,7 +54,8 @@ struct Control {
     allowance: u32,         // way after which lists made then may miss neighbours
     next_due: vec2u,        // time at which emitters may have a layer next
     next_allowance: u32,
-    unused: array<u32, 31>, // what follows begins at 256 bytes
+    solid_speed: f32,       // m/s, no particle of a solid moves faster; without surface_velocity
+    unused: array<u32, 30>, // what follows begins at 256 bytes
     speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
     acceleration_bits: u32, // have their order
     error_bits: u32,        // largest density error of the last step
@@ -95,7 +96,8 @@ struct SharedControl {
     allowance: u32,
     next_due: vec2u,
     next_allowance: u32,
-    unused: array<u32, 31>,
+    solid_speed: f32,
+    unused: array<u32, 30>,
     speed_bits: atomic<u32>,
     acceleration_bits: atomic<u32>,
     error_bits: atomic<u32>,

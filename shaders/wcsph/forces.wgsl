@@ -190,11 +190,12 @@ fn slope_at_end(own: Own, q: f32, r_squared: f32, inverse_r: f32, growth: f32) -
 }
 
 // Whether the barrier may act: few particles come so close to a solid, or approach it so fast, that they need that search.
-fn meets_barrier(sums: Sums, own_motion: vec4f) -> bool {
-    let fast = length(vector_of(own_motion)) + FASTEST_SURFACE > BRAKE_LIMIT * constants.sound_speed;
+// `speed`: none of the fluid that may be near is faster.
+fn meets_barrier(sums: Sums, speed: f32) -> bool {
+    let solid_speed = select(0.0, control.solid_speed, MOVING_SOLIDS) + FASTEST_SURFACE;
     let near = sqrt(sums.solid_square);
-    let close = near < quanta_of_spacings(BARRIER_RANGE);
-    return HAS_SOLIDS && (close || (near < quanta_of_spacings(BRAKE_RANGE) && (MOVING_SOLIDS || fast)));
+    let range = select(BARRIER_RANGE, BRAKE_RANGE, speed + solid_speed > BRAKE_LIMIT * constants.sound_speed);
+    return HAS_SOLIDS && near < quanta_of_spacings(range);
 }
 
 // By pressure. `own_pressure` as it enters the sum.
@@ -300,7 +301,8 @@ fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> V
     let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
     var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
-    if meets_barrier(sums, own_motion) {
+    // A read may come before the maximum is known, and what an emitter has just made is not in it.
+    if meets_barrier(sums, select(control.max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u)) {
         acceleration += barrier_of(own, own_motion);
     }
     return acceleration;
@@ -356,7 +358,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     let push = pressure_acceleration(sums, own_motion.w, acts);
     var acceleration = push + viscous_acceleration(sums, own_motion.w, inside)
         + body_forces(position_of(place_of(own)), velocity);
-    if meets_barrier(sums, own_motion) {
+    if meets_barrier(sums, length(velocity)) {
         acceleration += barrier_of(own, own_motion);
     }
     let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity

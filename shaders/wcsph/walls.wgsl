@@ -92,12 +92,36 @@ fn see_fluid(particle: u32, local: u32) {
     set_motion(start + i, vec4f(seen, excess));
 }
 
+var<workgroup> fastest_solid: atomic<u32>; // m/s, as bits
+
+// For forces, which may spare itself a search then.
+fn note_solid_speed(local: u32) {
+    if local == 0u {
+        atomicStore(&fastest_solid, 0u);
+    }
+    workgroupBarrier();
+    for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
+        let state = solid_state[NOW + n];
+        let speed = length(state.velocity.xyz) + length(state.angular_velocity.xyz) * solid_table[n].position.w;
+        if solid_table[n].kind != SOLID_FIXED {
+            atomicMax(&fastest_solid, bitcast<u32>(1.001 * speed));
+        }
+    }
+    workgroupBarrier();
+    if local == 0u {
+        control.solid_speed = bitcast<f32>(atomicLoad(&fastest_solid));
+    }
+}
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
     if workgroup_index(workgroup, workgroups) == 0u {
         if local == 0u {
             advance_clock();
+        }
+        if MOVING_SOLIDS {
+            note_solid_speed(local);
         }
         return;
     }

@@ -120,7 +120,9 @@ typedef struct WeirWcsphControl {
     uint32_t bad_id, starting;
     int32_t bad_place[4];
     uint32_t emitted, restored, side, last_side, sorting, stale;
-    uint32_t travelled, reached, sorted_at, allowance, next_due[2], next_allowance, unused[31];
+    uint32_t travelled, reached, sorted_at, allowance, next_due[2], next_allowance;
+    float solid_speed;
+    uint32_t unused[30];
     uint32_t speed_bits, acceleration_bits, error_bits;
     uint32_t bad_particles, bad_step, bad_slot; // bad_step UINT32_MAX: none
     uint32_t drained, lost, moved_finish[2], moved_drift[2];
