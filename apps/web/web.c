@@ -87,7 +87,7 @@ int32_t weir_web_sim_advance(WeirSim *sim, double wall_seconds)
 {
     uint32_t steps = 0;
     WeirStatus status = weir_sim_advance(sim, wall_seconds, &steps);
-    return status == WEIR_OK || status == WEIR_PENDING ? (int32_t)steps : -(int32_t)status;
+    return status == WEIR_OK ? (int32_t)steps : -(int32_t)status;
 }
 
 WEIR_WEB(weir_web_sim_set_tool)

@@ -136,7 +136,7 @@ const WeirBackend *weir_cpu_backend(void);
 WeirSim *weir_sim_create(const WeirScene *scene, const WeirSimOptions *options);
 void weir_sim_destroy(WeirSim *sim); // NULL is allowed
 
-// WEIR_OK while it can go on, WEIR_PENDING while it starts, else the error that stopped it.
+// WEIR_OK while it can go on, else the error that stopped it.
 WeirStatus weir_sim_status(const WeirSim *sim);
 const char *weir_sim_error(const WeirSim *sim);       // message of the last call that failed; "" if none
 const char *weir_sim_warning(const WeirSim *sim);     // advice, "" if none
@@ -158,7 +158,9 @@ WeirStatus weir_sim_step(WeirSim *sim, uint32_t steps);
 // follow later.
 WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_taken);
 void weir_sim_set_max_steps(WeirSim *sim, uint32_t max_steps); // see WeirSimOptions; 0: 64
-// Lets asynchronous work go on and checks for NaN, blow-up, lost particles and device faults. Never blocks.
+// Lets asynchronous work go on and checks for NaN, blow-up, lost particles and device faults. Never blocks. In a browser a
+// simulation on the GPU compiles its shaders first: until then this says WEIR_PENDING, as do all calls that would step,
+// change or read it, and these do nothing.
 WeirStatus weir_sim_poll(WeirSim *sim);
 // Steps until the simulated time is `time` seconds: exactly with adaptive steps, whose last one is shortened; to
 // the nearest step with fixed ones. Natively it returns when that is done; in a browser it queues a batch and

@@ -286,8 +286,7 @@ WeirStatus weir_sim_advance(WeirSim *sim, double wall_seconds, uint32_t *steps_t
     uint64_t before = sim->steps;
     WeirStatus status = weir_sim_step(sim, steps);
     // Those queued: a device's own count comes later. Where a step failed, those before it.
-    bool given = status == WEIR_OK || status == WEIR_PENDING;
-    *steps_taken = given ? steps : (uint32_t)(sim->steps - before);
+    *steps_taken = status == WEIR_OK ? steps : (uint32_t)(sim->steps - before);
     return status;
 }
 
@@ -422,6 +421,12 @@ WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float 
     return status;
 }
 
+// In a browser a solver that waits for its pipelines takes no changes.
+static bool is_starting(WeirSim *sim)
+{
+    return weir_sim_poll(sim) == WEIR_PENDING;
+}
+
 static WeirStatus configure(WeirSim *sim)
 {
     return pass_on(sim, sim->solver->interface->configure(sim->solver, &sim->parameters, &sim->constants));
@@ -443,6 +448,7 @@ WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *
     WeirParameters changed = sim->scene->parameters;
     WeirStatus status = weir_parameter_set(&changed, (uint32_t)index, name, values, count, &sim->error);
     if (status) return status;
+    if (is_starting(sim)) return WEIR_PENDING;
     sim->state_is_current = sim->motion_is_current = false;
     sim->scene->parameters = changed;
     make_constants(sim);
@@ -476,6 +482,7 @@ WeirStatus weir_sim_set_tool(WeirSim *sim, const WeirTool *tool)
     if (!sim->solver) return sim->status;
     WeirStatus status = tool ? check_tool(sim, tool) : WEIR_OK;
     if (status) return status;
+    if (is_starting(sim)) return WEIR_PENDING;
     sim->tool = tool ? *tool : (WeirTool){0};
     weir_constants_set_tool(&sim->constants, &sim->tool);
     return configure(sim);

@@ -165,12 +165,10 @@ static WeirStatus write_particles(WeirGpuSolver *solver, const WeirParticles *pa
                              : weir_fail(&solver->base.message, status, "no memory for %u particles", count);
 }
 
-static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+static WeirStatus write_state(WeirMueller *solver, const WeirParticles *particles)
 {
-    WeirMueller *solver = (WeirMueller *)base;
     WeirGpuSolver *common = &solver->common;
-    WeirStatus status = weir_gpu_solver_check(common);
-    if (status == WEIR_OK) status = write_particles(common, particles);
+    WeirStatus status = write_particles(common, particles);
     if (status != WEIR_OK) return status;
     size_t bytes = 2 * sizeof(float) * (size_t)common->constants.particle_count;
     WeirDeviceHealth health = {.first_bad_step = UINT32_MAX};
@@ -180,11 +178,24 @@ static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
     common->health = (WeirHealth){0};
     common->state_copy_stale = true;
     common->state_work = ++common->work;
-    // Density and pressure of the new state, for whoever draws it before the first step.
+    return WEIR_OK;
+}
+
+// Density and pressure of the new state, for whoever draws it before the first step.
+static WeirStatus start(WeirGpuSolver *common)
+{
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
-    weir_mueller_evaluate(solver, encoder);
+    weir_mueller_evaluate((WeirMueller *)common, encoder);
     weir_gpu_submit(common->gpu, encoder, "set_state");
     return weir_gpu_solver_check(common);
+}
+
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+{
+    WeirMueller *solver = (WeirMueller *)base;
+    WeirStatus status = weir_gpu_solver_check(&solver->common);
+    if (status == WEIR_OK) status = write_state(solver, particles);
+    return status == WEIR_OK ? weir_gpu_solver_begin(&solver->common) : status;
 }
 
 static const WeirSolverInterface mueller_interface = {
@@ -231,6 +242,7 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
     WeirGpuSolver *common = &solver->common;
     common->base.interface = &mueller_interface;
     common->gpu = gpu;
+    common->start = start;
     common->health_buffer = WEIR_MUELLER_health;
     common->health_size = sizeof(WeirDeviceHealth);
     common->take_health = weir_mueller_take_health;

@@ -44,6 +44,11 @@ WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModul
     return wgpuDeviceCreateShaderModuleTrusted(gpu->device, descriptor, WGPUShaderRuntimeChecks_None);
 }
 
+bool weir_platform_compiles_in_background(void)
+{
+    return false; // wgpu-native does not have the call
+}
+
 double weir_platform_timestamp_period(WeirGpu *gpu)
 {
     return wgpuQueueGetTimestampPeriod(gpu->queue);

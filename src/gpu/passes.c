@@ -118,28 +118,58 @@ static void make_bind_group(WeirPasses *passes, uint32_t pass)
             .label = label, .layout = passes->layout[pass], .entryCount = count, .entries = entries});
 }
 
-WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,
-                                       WGPUBindGroupLayout layout, WeirReport *report)
+// What a pipeline is made of: shader module, layout, and the descriptor that names them.
+typedef struct Ingredients {
+    WGPUShaderModule module;
+    WGPUComputePipelineDescriptor descriptor;
+} Ingredients;
+
+static Ingredients prepare_ingredients(WeirGpu *gpu, const char *name, const char *label, const char *source,
+                                       WGPUBindGroupLayout layout)
 {
     WGPUShaderSourceWGSL wgsl = {.chain.sType = WGPUSType_ShaderSourceWGSL, .code = weir_gpu_text(source)};
     WGPUShaderModuleDescriptor module_descriptor = {.nextInChain = &wgsl.chain,
                                                     .label = weir_gpu_text(label)};
-    weir_report_begin(report);
     WGPUShaderModule module =
         weir_platform_shader_module(gpu, &module_descriptor, gpu->options.trusted_shaders);
     WGPUPipelineLayout pipeline_layout = wgpuDeviceCreatePipelineLayout(
         gpu->device, &(WGPUPipelineLayoutDescriptor){.label = weir_gpu_text(label),
                                                      .bindGroupLayoutCount = 1,
                                                      .bindGroupLayouts = &layout});
-    WGPUComputePipeline pipeline = wgpuDeviceCreateComputePipeline(
-        gpu->device,
-        &(WGPUComputePipelineDescriptor){.label = weir_gpu_text(label),
-                                         .layout = pipeline_layout,
-                                         .compute = {.module = module, .entryPoint = weir_gpu_text(name)}});
+    return (Ingredients){module,
+                         {.label = weir_gpu_text(label),
+                          .layout = pipeline_layout,
+                          .compute = {.module = module, .entryPoint = weir_gpu_text(name)}}};
+}
+
+static void release_ingredients(const Ingredients *made)
+{
+    if (made->descriptor.layout) wgpuPipelineLayoutRelease(made->descriptor.layout);
+    if (made->module) wgpuShaderModuleRelease(made->module);
+}
+
+WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,
+                                       WGPUBindGroupLayout layout, WeirReport *report)
+{
+    weir_report_begin(report);
+    Ingredients made = prepare_ingredients(gpu, name, label, source, layout);
+    WGPUComputePipeline pipeline = wgpuDeviceCreateComputePipeline(gpu->device, &made.descriptor);
     weir_report_end(report, label);
-    if (pipeline_layout) wgpuPipelineLayoutRelease(pipeline_layout);
-    if (module) wgpuShaderModuleRelease(module);
+    release_ingredients(&made);
     return pipeline;
+}
+
+// The same beside the program's own work: *pipeline comes later.
+static WeirStatus request_pipeline(WeirGpu *gpu, const WeirPassInfo *info, const char *source,
+                                   WGPUBindGroupLayout layout, WeirReport *report,
+                                   WGPUComputePipeline *pipeline)
+{
+    weir_report_begin(report);
+    Ingredients made = prepare_ingredients(gpu, info->name, info->label, source, layout);
+    WeirStatus status = weir_report_pipeline(report, &made.descriptor, info->label, pipeline);
+    weir_report_end(report, info->label);
+    release_ingredients(&made);
+    return status;
 }
 
 static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pass, WeirReport *report)
@@ -158,10 +188,15 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
         weir_pass_source(method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS], info->parts, info->source);
     free(settings);
     if (!source) return false;
-    variant->pipeline[pass] =
-        weir_pass_pipeline(passes->gpu, info->name, info->label, source, passes->layout[pass], report);
+    WGPUBindGroupLayout layout = passes->layout[pass];
+    WGPUComputePipeline *pipeline = &variant->pipeline[pass];
+    bool made = true;
+    if (passes->in_background)
+        made = request_pipeline(passes->gpu, info, source, layout, report, pipeline) == WEIR_OK;
+    else
+        *pipeline = weir_pass_pipeline(passes->gpu, info->name, info->label, source, layout, report);
     free(source);
-    return true;
+    return made;
 }
 
 static void release_pipelines(WeirVariant *variant)
@@ -200,7 +235,7 @@ WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_
             weir_report_end(report, label);
         }
         if (!variant->pipeline[pass] && !make_pipeline(passes, variant, pass, report))
-            return weir_fail(message, WEIR_ERROR_MEMORY, "%s: no memory for its source", label);
+            return weir_fail(message, WEIR_ERROR_MEMORY, "%s: no host memory for it", label);
     }
     return weir_report_check(report, message);
 }

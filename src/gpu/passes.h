@@ -58,6 +58,7 @@ typedef struct WeirPasses {
     WGPUBindGroup bind_group[WEIR_MAX_PASSES];
     WeirVariant variants[WEIR_MAX_VARIANTS];
     uint32_t current, made; // the variant that runs; variants made so far
+    bool in_background;     // pipelines come some time after they were asked for
 } WeirPasses;
 
 // Storage buffers that a pass binds, each in one part: WebGPU promises no more than 8.

@@ -15,6 +15,8 @@ void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands);
 // With `trusted`, without run-time bounds checks where the platform can.
 WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModuleDescriptor *descriptor,
                                              bool trusted);
+// Whether pipelines may be compiled beside each other and the program's own work.
+bool weir_platform_compiles_in_background(void);
 // Nanoseconds of one tick of a timestamp query.
 double weir_platform_timestamp_period(WeirGpu *gpu);
 // Whether a dispatch whose size the device decides costs no more than one that does nothing.

@@ -29,21 +29,67 @@ void weir_report_destroy(WeirReport *report)
     if (report->pending == 0) free(report);
 }
 
+// Keeps the first.
+static void note_fault(WeirReport *report, const char *label, bool memory, WGPUStringView text)
+{
+    if (report->status != WEIR_OK) return;
+    size_t length = text.data && text.length == WGPU_STRLEN ? strlen(text.data) : text.length;
+    report->status = weir_fail(&report->message, memory ? WEIR_ERROR_MEMORY : WEIR_ERROR_DEVICE, "%s: %s%.*s",
+                               label, memory ? "no GPU memory, use fewer particles; " : "",
+                               (int)(length < 400 ? length : 400), text.data ? text.data : "");
+}
+
+static void free_if_orphaned(WeirReport *report)
+{
+    if (report->orphaned && report->pending == 0) free(report);
+}
+
 static void on_scope(WGPUPopErrorScopeStatus status, WGPUErrorType type, WGPUStringView text, void *userdata1,
                      void *userdata2)
 {
     WeirReport *report = userdata1;
-    const char *label = userdata2;
     --report->pending;
-    bool error = status == WGPUPopErrorScopeStatus_Success && type != WGPUErrorType_NoError;
-    if (error && report->status == WEIR_OK) {
-        bool memory = type == WGPUErrorType_OutOfMemory;
-        size_t length = text.data && text.length == WGPU_STRLEN ? strlen(text.data) : text.length;
-        report->status = weir_fail(&report->message, memory ? WEIR_ERROR_MEMORY : WEIR_ERROR_DEVICE,
-                                   "%s: %s%.*s", label, memory ? "no GPU memory, use fewer particles; " : "",
-                                   (int)(length < 400 ? length : 400), text.data ? text.data : "");
+    if (status == WGPUPopErrorScopeStatus_Success && type != WGPUErrorType_NoError)
+        note_fault(report, userdata2, type == WGPUErrorType_OutOfMemory, text);
+    free_if_orphaned(report);
+}
+
+typedef struct Request {
+    WeirReport *report;
+    const char *label;
+    WGPUComputePipeline *pipeline; // where it is to be
+} Request;
+
+static void on_pipeline(WGPUCreatePipelineAsyncStatus status, WGPUComputePipeline pipeline,
+                        WGPUStringView text, void *userdata1, void *userdata2)
+{
+    (void)userdata2;
+    Request request = *(Request *)userdata1;
+    free(userdata1);
+    WeirReport *report = request.report;
+    --report->pending;
+    if (status != WGPUCreatePipelineAsyncStatus_Success) {
+        note_fault(report, request.label, false, text);
+    } else if (report->orphaned) {
+        wgpuComputePipelineRelease(pipeline);
+    } else {
+        *request.pipeline = pipeline;
     }
-    if (report->orphaned && report->pending == 0) free(report);
+    free_if_orphaned(report);
+}
+
+WeirStatus weir_report_pipeline(WeirReport *report, const WGPUComputePipelineDescriptor *descriptor,
+                                const char *label, WGPUComputePipeline *pipeline)
+{
+    Request *request = malloc(sizeof *request);
+    if (!request) return WEIR_ERROR_MEMORY;
+    *request = (Request){report, label, pipeline};
+    ++report->pending;
+    wgpuDeviceCreateComputePipelineAsync(
+        report->gpu->device, descriptor,
+        (WGPUCreateComputePipelineAsyncCallbackInfo){
+            .mode = WGPUCallbackMode_AllowProcessEvents, .callback = on_pipeline, .userdata1 = request});
+    return WEIR_OK;
 }
 
 void weir_report_begin(WeirReport *report)

@@ -37,7 +37,10 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     solver->report = weir_report_create(gpu);
     if (!solver->report) return weir_fail(message, WEIR_ERROR_MEMORY, "no memory for a simulation");
     solver->buffers = (WeirBuffers){.gpu = gpu, .info = method->buffers, .count = method->buffer_count};
-    solver->passes = (WeirPasses){.gpu = gpu, .method = method, .buffers = &solver->buffers};
+    solver->passes = (WeirPasses){.gpu = gpu,
+                                  .method = method,
+                                  .buffers = &solver->buffers,
+                                  .in_background = weir_platform_compiles_in_background()};
     WeirStatus status = weir_buffers_plan(&solver->buffers, sizes, &solver->constants, message);
     if (status == WEIR_OK) status = weir_passes_check(&solver->passes, message);
     if (status != WEIR_OK) return status;
@@ -64,10 +67,21 @@ void weir_gpu_solver_destroy(WeirGpuSolver *solver)
     weir_report_destroy(solver->report);
 }
 
+WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver)
+{
+    solver->starting = solver->passes.in_background && weir_report_pending(solver->report);
+    if (solver->starting) return WEIR_OK;
+    solver->passes.in_background = false; // from now on what is asked for is to run at once
+    return solver->start(solver);
+}
+
 WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver)
 {
     WeirStatus status = weir_report_check(solver->report, &solver->base.message);
-    return status == WEIR_OK ? weir_gpu_check(solver->gpu, &solver->base.message) : status;
+    if (status == WEIR_OK) status = weir_gpu_check(solver->gpu, &solver->base.message);
+    if (status != WEIR_OK || !solver->starting) return status;
+    status = weir_gpu_solver_begin(solver);
+    return solver->starting ? WEIR_PENDING : status;
 }
 
 void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,

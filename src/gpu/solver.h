@@ -25,6 +25,10 @@ struct WeirGpuSolver {
     WeirProfile *profile; // NULL: no timestamps
     WeirReport *report;   // faults of what was made for this solver
 
+    // In a browser its first pipelines come later; until then it does nothing, and says WEIR_PENDING.
+    bool starting;
+    WeirStatus (*start)(WeirGpuSolver *solver); // the state is written: the first commands on it
+
     uint64_t work;       // submits that changed the state, counted
     uint64_t state_work; // `work` when the state was last replaced
 
@@ -50,7 +54,9 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
                                 const uint64_t *piece_sizes, WeirMessage *message);
 // Frees all but the solver itself.
 void weir_gpu_solver_destroy(WeirGpuSolver *solver);
-// WEIR_OK, or the first error of device or solver, with its message in base.message.
+// Begins work on the state that was written, now or when the pipelines are there.
+WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver);
+// WEIR_OK, WEIR_PENDING while it is starting, or the first error of device or solver, with its message in base.message.
 WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver);
 // Takes parameters and constants, and uploads them.
 void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,

@@ -227,14 +227,11 @@ static void write_control(WeirWcsphGpu *solver)
     solver->certain = true;
 }
 
-static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+static WeirStatus write_state(WeirWcsphGpu *solver, const WeirParticles *particles)
 {
-    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
     WeirGpuSolver *common = &solver->common;
-    WeirStatus status = weir_gpu_solver_check(common);
-    if (status != WEIR_OK) return status;
     if (!weir_gpu_wcsph_write_state(solver, particles))
-        return weir_fail(&base->message, WEIR_ERROR_MEMORY, "no memory for %u particles",
+        return weir_fail(&common->base.message, WEIR_ERROR_MEMORY, "no memory for %u particles",
                          common->constants.particle_count);
     write_control(solver);
     solver->steps_before = 0;
@@ -242,14 +239,27 @@ static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
     common->health = (WeirHealth){.has_clock = true, .fluid_particles = solver->fluid_at_start};
     common->state_copy_stale = true;
     common->state_work = ++common->work;
-    // Accelerations and speeds give the first step's length.
+    return WEIR_OK;
+}
+
+// Accelerations and speeds give the first step's length.
+static WeirStatus start(WeirGpuSolver *common)
+{
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
-    weir_gpu_wcsph_evaluate(solver, encoder, WEIR_EVALUATE_NEW);
+    weir_gpu_wcsph_evaluate((WeirWcsphGpu *)common, encoder, WEIR_EVALUATE_NEW);
     WeirRecorder recorder = weir_recorder_begin(common, encoder);
     weir_record(&recorder, WEIR_WCSPH_FIRST_STEP);
     weir_recorder_end(&recorder);
     weir_gpu_submit(common->gpu, encoder, "set_state");
     return weir_gpu_solver_check(common);
+}
+
+static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
+    WeirStatus status = weir_gpu_solver_check(&solver->common);
+    if (status == WEIR_OK) status = write_state(solver, particles);
+    return status == WEIR_OK ? weir_gpu_solver_begin(&solver->common) : status;
 }
 
 static const WeirSolverInterface wcsph_interface = {
@@ -325,6 +335,7 @@ WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, We
     WeirGpuSolver *common = &solver->common;
     common->base.interface = &wcsph_interface;
     common->gpu = gpu;
+    common->start = start;
     common->health_buffer = WEIR_WCSPH_control;
     common->health_size = sizeof(WeirWcsphControl);
     common->take_health = weir_gpu_wcsph_take_health;

@@ -29,6 +29,11 @@ WGPUShaderModule weir_platform_shader_module(WeirGpu *gpu, const WGPUShaderModul
     return wgpuDeviceCreateShaderModule(gpu->device, descriptor);
 }
 
+bool weir_platform_compiles_in_background(void)
+{
+    return true;
+}
+
 double weir_platform_timestamp_period(WeirGpu *gpu)
 {
     (void)gpu;

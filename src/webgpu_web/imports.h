@@ -91,6 +91,8 @@ WEIR_JS(void, group_texture, uint32_t binding, uint32_t view)
 WEIR_JS(uint32_t, group_create, uint32_t device, WEIR_JS_TEXT, uint32_t layout)
 WEIR_JS(uint32_t, compute_pipeline, uint32_t device, WEIR_JS_TEXT, uint32_t layout, uint32_t shader,
         const char *entry, size_t entry_length)
+WEIR_JS(void, compute_pipeline_async, uint32_t device, WEIR_JS_TEXT, uint32_t layout, uint32_t shader,
+        const char *entry, size_t entry_length, uint32_t record)
 WEIR_JS(void, vertex_stage, uint32_t shader, WEIR_JS_TEXT)
 WEIR_JS(void, blend, uint32_t color_operation, uint32_t color_source, uint32_t color_destination,
         uint32_t alpha_operation, uint32_t alpha_source, uint32_t alpha_destination)

@@ -103,6 +103,16 @@ void weir_webgpu_scope_done(uint32_t number, uint32_t status, uint32_t type, uin
     free_text(message);
 }
 
+WEIR_EXPORT(weir_webgpu_pipeline_done)
+void weir_webgpu_pipeline_done(uint32_t number, uint32_t status, uint32_t pipeline, uint32_t length)
+{
+    WebRecord record = take_record(number);
+    WGPUStringView message = weir_webgpu_take_text(length);
+    ((WGPUCreateComputePipelineAsyncCallback)record.callback)(
+        status, WEIR_OBJECT(WGPUComputePipeline, pipeline), message, record.userdata1, record.userdata2);
+    free_text(message);
+}
+
 WEIR_EXPORT(weir_webgpu_shader_done)
 void weir_webgpu_shader_done(uint32_t number, uint32_t status, uint32_t count, uint32_t length)
 {

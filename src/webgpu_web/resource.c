@@ -286,6 +286,21 @@ WGPUComputePipeline wgpuDeviceCreateComputePipeline(WGPUDevice device,
                                                 WEIR_TEXT(compute->entryPoint)));
 }
 
+WGPUFuture wgpuDeviceCreateComputePipelineAsync(WGPUDevice device,
+                                                const WGPUComputePipelineDescriptor *descriptor,
+                                                WGPUCreateComputePipelineAsyncCallbackInfo info)
+{
+    const WGPUComputeState *compute = &descriptor->compute;
+    if (compute->constantCount > 0) weir_webgpu_refuse(WEIR_ID(device), "pipeline constants are not served");
+    uint32_t record = weir_webgpu_record((void *)info.callback, info.userdata1, info.userdata2);
+    if (record) {
+        weir_js_compute_pipeline_async(WEIR_ID(device), WEIR_TEXT(descriptor->label),
+                                       WEIR_ID(descriptor->layout), WEIR_ID(compute->module),
+                                       WEIR_TEXT(compute->entryPoint), record);
+    }
+    return weir_webgpu_future(record);
+}
+
 void wgpuComputePipelineRelease(WGPUComputePipeline pipeline)
 {
     weir_js_release(WEIR_ID(pipeline));

@@ -71,6 +71,7 @@ export class Bench {
     const scene = this.#weir.loadScene(benchScene(count, search, viscosity));
     const sim = this.#weir.createSim(scene, { gpu: this.#gpu });
     try {
+      await sim.ready();
       return await use(sim);
     } finally {
       sim.destroy();

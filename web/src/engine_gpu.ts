@@ -151,8 +151,7 @@ export class GpuEngine implements Engine {
     let sim: Sim | null = null;
     try {
       sim = this.#weir.createSim(scene, { gpu: this.gpu, maxSteps: this.#pace.maxSteps });
-      while (sim.poll() === Status.pending) await new Promise((resolve) => setTimeout(resolve, 5));
-      if (sim.status !== Status.ok) throw new WeirError(sim.status, sim.error);
+      await sim.ready();
       this.#noteScene(scene);
       return sim;
     } catch (error) {

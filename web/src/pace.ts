@@ -2,7 +2,7 @@
 // (drawing) and something per step; both are fitted to the last frames, so that costly drawing does not pass for
 // costly steps.
 
-const mostSteps = 256;
+const mostSteps = 1024;
 const memory = 0.95; // weight of a frame relative to the next one
 const probeEvery = 8; // frames; a few more steps then, or all frames would be alike and the fit could not tell
 

@@ -89,7 +89,7 @@ class Job {
       scene = this.#weir.loadScene(document);
       validation.prepare(this.#run, scene);
       const sim = (this.#sim = this.#weir.createSim(scene, this.#gpu ? { gpu: this.#gpu } : {}));
-      await wait(sim);
+      await sim.ready();
       this.#looks = looksOf(scene, document);
       // What the page draws: the document with this run's spacing.
       const parameters = { ...document.parameters, particle_spacing: run.spacing };

@@ -9,13 +9,14 @@ export type WebGpuExports = {
   weir_webgpu_device_done: Callback;
   weir_webgpu_status_done: Callback;
   weir_webgpu_scope_done: Callback;
+  weir_webgpu_pipeline_done: Callback;
   weir_webgpu_shader_done: Callback;
   weir_webgpu_lost_done: Callback;
   weir_webgpu_error_done: Callback;
   weir_webgpu_forget(record: number): void;
 };
 
-export type Kind = 'adapter' | 'device' | 'status' | 'scope' | 'shader' | 'lost' | 'error';
+export type Kind = 'adapter' | 'device' | 'status' | 'scope' | 'pipeline' | 'shader' | 'lost' | 'error';
 
 // The values of webgpu.h's status enums that all callbacks share, and those of their own.
 export const SUCCESS = 1;
@@ -23,6 +24,8 @@ export const CANCELLED = 2;
 export const UNAVAILABLE = 3; // request adapter
 export const ADAPTER_ERROR = 4;
 export const FAILED = 3; // the others
+export const PIPELINE_INVALID = 3;
+export const PIPELINE_FAILED = 4;
 export const MAP_ABORTED = 4;
 export const LOST_UNKNOWN = 1;
 export const LOST_DESTROYED = 2;
@@ -231,6 +234,7 @@ export class WebGpuHost {
       case 'device': return exports.weir_webgpu_device_done(event.record, event.status, event.value, length);
       case 'status': return exports.weir_webgpu_status_done(event.record, event.status, 0, length);
       case 'scope': return exports.weir_webgpu_scope_done(event.record, event.status, event.value, length);
+      case 'pipeline': return exports.weir_webgpu_pipeline_done(event.record, event.status, event.value, length);
       case 'shader':
         this.messages = event.messages;
         exports.weir_webgpu_shader_done(event.record, event.status, event.messages.length, 0);

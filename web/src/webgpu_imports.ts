@@ -6,7 +6,8 @@ import * as names from './webgpu_enums.ts';
 
 import {
   ADAPTER_ERROR, CANCELLED, ERROR_NONE, ERROR_TYPES, FAILED, LOST_DESTROYED,
-  LOST_FAILED_CREATION, LOST_UNKNOWN, MAP_ABORTED, SUCCESS, UNAVAILABLE, WebGpuHost, reasonText,
+  LOST_FAILED_CREATION, LOST_UNKNOWN, MAP_ABORTED, PIPELINE_FAILED, PIPELINE_INVALID, SUCCESS, UNAVAILABLE, WebGpuHost,
+  reasonText,
 } from './webgpu_host.ts';
 import type { DeviceHome, InstanceHome, WebEvent, WebGpuExports } from './webgpu_host.ts';
 
@@ -378,6 +379,15 @@ export class WebGpuImports {
   // -------------------------------------------------------------------------------------------------------
   // Layouts, bind groups, pipelines
 
+  #computePipeline(label: number, length: number, layout: number, shader: number, entry: number, entryLength: number):
+  GPUComputePipelineDescriptor {
+    return {
+      label: this.#host.text(label, length),
+      layout: layout ? this.#get<GPUPipelineLayout>(layout) : 'auto',
+      compute: { module: this.#get(shader), entryPoint: this.#host.entryPoint(entry, entryLength) },
+    };
+  }
+
   #pipelineCalls() {
     return {
       layout_buffer: (binding: number, visibility: number, type: number, dynamic: number, minBindingSize: number) => {
@@ -423,13 +433,26 @@ export class WebGpuImports {
       compute_pipeline: (device: number, label: number, length: number, layout: number, shader: number,
         entry: number, entryLength: number) =>
         this.#add(
-          this.#get<GPUDevice>(device).createComputePipeline({
-            label: this.#host.text(label, length),
-            layout: layout ? this.#get<GPUPipelineLayout>(layout) : 'auto',
-            compute: { module: this.#get(shader), entryPoint: this.#host.entryPoint(entry, entryLength) },
-          }),
+          this.#get<GPUDevice>(device).createComputePipeline(
+            this.#computePipeline(label, length, layout, shader, entry, entryLength)),
           this.#homeOf(device),
         ),
+      compute_pipeline_async: (device: number, label: number, length: number, layout: number, shader: number,
+        entry: number, entryLength: number, record: number) => {
+        const instance = this.#host.instanceOf(device);
+        const event = this.#host.start(instance, 'pipeline', record);
+        const descriptor = this.#computePipeline(label, length, layout, shader, entry, entryLength);
+        const home = this.#homeOf(device);
+        this.#get<GPUDevice>(device).createComputePipelineAsync(descriptor).then(
+          (pipeline) => {
+            const handle = this.#add(pipeline, home);
+            if (!this.#host.finish(instance, event, SUCCESS, handle)) this.#host.release(handle);
+          },
+          (error: GPUPipelineError) =>
+            this.#host.finish(instance, event, error.reason === 'validation' ? PIPELINE_INVALID : PIPELINE_FAILED, 0,
+              reasonText(error)),
+        );
+      },
       vertex_stage: (shader: number, entry: number, length: number) => {
         this.#vertex = { module: this.#get(shader), entryPoint: this.#host.entryPoint(entry, length) };
         this.#fragment = undefined;

@@ -447,10 +447,22 @@ export class Sim {
     this.dimension = scene.dimension;
     this.backend = memory.text(c.weir_sim_backend(this.pointer));
     const status = this.status;
-    if (status === Status.ok || status === Status.pending) return;
+    if (status === Status.ok) return;
     const error = new WeirError(status, this.error);
     this.destroy();
     throw error;
+  }
+
+  // Resolves when it may step, on the GPU when its shaders are compiled; until then what would step or change it throws.
+  // Throws WeirError if it cannot run.
+  async ready(): Promise<void> {
+    let status = this.poll();
+    while (status === Status.pending) {
+      await new Promise((resolve) => setTimeout(resolve, 1));
+      if (!this.#alive) throw new WeirError(Status.device, 'the simulation was destroyed while it started');
+      status = this.poll();
+    }
+    this.#throwIf(status);
   }
 
   get stepCount(): number {
@@ -478,18 +490,18 @@ export class Sim {
   }
 
   step(steps: number): void {
-    this.#throwIf(this.#context.c.weir_sim_step(this.pointer, steps));
+    this.#throwUnlessDone(this.#context.c.weir_sim_step(this.pointer, steps));
   }
 
   // Takes that many steps, fewer if they come to `time`. On the GPU poll() tells when they are done.
   stepUntil(steps: number, time: number): void {
-    this.#throwIf(this.#context.c.weir_sim_step_until(this.pointer, steps, time));
+    this.#throwUnlessDone(this.#context.c.weir_sim_step_until(this.pointer, steps, time));
   }
 
   // Takes the steps due after that much more wall time; returns their number.
   advance(wallSeconds: number): number {
     const steps = this.#context.c.weir_web_sim_advance(this.pointer, wallSeconds);
-    if (steps < 0) this.#throwIf(-steps);
+    if (steps < 0) this.#throwUnlessDone(-steps);
     return steps;
   }
 
@@ -503,7 +515,7 @@ export class Sim {
   }
 
   reset(): void {
-    this.#throwIf(this.#context.c.weir_sim_reset(this.pointer));
+    this.#throwUnlessDone(this.#context.c.weir_sim_reset(this.pointer));
   }
 
   // As it runs now.
@@ -517,7 +529,7 @@ export class Sim {
     const list = typeof values === 'number' ? [values] : values;
     const set = (at: number) =>
       memory.withDoubles(list, (numbers) => c.weir_sim_set_parameter(this.pointer, at, numbers, list.length));
-    this.#throwIf(memory.withText(name, set));
+    this.#throwUnlessDone(memory.withText(name, set));
   }
 
   // x, y (and z in 3D) per particle, by id.
@@ -533,13 +545,13 @@ export class Sim {
       memory.floats(at + bytes, wanted).set(velocities);
       return c.weir_sim_set_state(this.pointer, at, at + bytes);
     });
-    this.#throwIf(status);
+    this.#throwUnlessDone(status);
   }
 
   setTool(kind: ToolKind, position: Readonly<Triple>, velocity: Readonly<Triple>, radius: number, strength: number): void {
     const [x, y, z] = position;
     const [vx, vy, vz] = velocity;
-    this.#throwIf(this.#context.c.weir_web_sim_set_tool(this.pointer, kind, x, y, z, vx, vy, vz, radius, strength));
+    this.#throwUnlessDone(this.#context.c.weir_web_sim_set_tool(this.pointer, kind, x, y, z, vx, vy, vz, radius, strength));
   }
 
   clock(): Clock {
@@ -601,6 +613,11 @@ export class Sim {
     this.#alive = false;
     for (const block of this.#fields) if (block) this.#context.memory.free(block.at);
     this.#context.c.weir_sim_destroy(this.pointer);
+  }
+
+  #throwUnlessDone(status: Status): void {
+    if (status === Status.pending) throw new WeirError(status, 'the simulation is still starting; await ready() first');
+    this.#throwIf(status);
   }
 
   #throwIf(status: Status): void {

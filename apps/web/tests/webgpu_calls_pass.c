@@ -37,6 +37,15 @@ typedef struct Compute {
     WGPUQuerySet times;
 } Compute;
 
+static WGPUComputePipelineDescriptor compute_descriptor(const Compute *compute, const char *entry)
+{
+    return (WGPUComputePipelineDescriptor){
+        .label = weir_test_text("multiply"),
+        .layout = compute->pipeline_layout,
+        .compute = {.module = compute->shader, .entryPoint = weir_test_text(entry)},
+    };
+}
+
 static void make_compute_pipeline(Compute *compute)
 {
     WGPUBindGroupLayoutEntry inputs[2] = {
@@ -58,11 +67,7 @@ static void make_compute_pipeline(Compute *compute)
     WGPUPipelineLayoutDescriptor layout = {.bindGroupLayoutCount = 2, .bindGroupLayouts = compute->layouts};
     compute->pipeline_layout = wgpuDeviceCreatePipelineLayout(world.device, &layout);
     compute->shader = make_shader(compute_code);
-    WGPUComputePipelineDescriptor descriptor = {
-        .label = weir_test_text("multiply"),
-        .layout = compute->pipeline_layout,
-        .compute = {.module = compute->shader, .entryPoint = weir_test_text("multiply")},
-    };
+    WGPUComputePipelineDescriptor descriptor = compute_descriptor(compute, "multiply");
     compute->pipeline = wgpuDeviceCreateComputePipeline(world.device, &descriptor);
 }
 
@@ -142,6 +147,57 @@ static int test_compute(uint32_t step)
 {
     static Compute compute;
     return multiply(step, &compute, 1000, NULL);
+}
+
+typedef struct Made {
+    WGPUCreatePipelineAsyncStatus status;
+    WGPUComputePipeline pipeline;
+    bool has_message;
+} Made;
+
+static void on_made(WGPUCreatePipelineAsyncStatus status, WGPUComputePipeline pipeline,
+                    WGPUStringView message, void *userdata1, void *userdata2)
+{
+    (void)userdata2;
+    *(Made *)userdata1 = (Made){status, pipeline, message.length > 0};
+}
+
+// A pipeline that came later computes like one made at once; one that cannot be says why.
+static int test_compute_async(uint32_t step)
+{
+    static Compute compute;
+    static Made good, bad;
+    static bool runs;
+    static uint32_t back[NUMBERS];
+    if (step == 0) {
+        make_compute_pipeline(&compute);
+        make_compute_groups(&compute);
+        wgpuComputePipelineRelease(compute.pipeline);
+        WGPUCreateComputePipelineAsyncCallbackInfo info = {
+            .mode = WGPUCallbackMode_AllowProcessEvents, .callback = on_made, .userdata1 = &good};
+        WGPUComputePipelineDescriptor descriptor = compute_descriptor(&compute, "multiply");
+        wgpuDeviceCreateComputePipelineAsync(world.device, &descriptor, info);
+        info.userdata1 = &bad;
+        descriptor = compute_descriptor(&compute, "no_such_entry");
+        wgpuDeviceCreateComputePipelineAsync(world.device, &descriptor, info);
+        CHECK(!good.status && !bad.status); // later, from wgpuInstanceProcessEvents()
+    }
+    if (!good.status || !bad.status) return PENDING;
+    CHECK(good.status == WGPUCreatePipelineAsyncStatus_Success && good.pipeline && !good.has_message);
+    CHECK(bad.status == WGPUCreatePipelineAsyncStatus_ValidationError && !bad.pipeline && bad.has_message);
+    if (!runs) {
+        runs = true;
+        compute.pipeline = good.pipeline;
+        wgpuQueueWriteBuffer(world.queue, compute.uniforms, FACTOR_OFFSET, &(uint32_t){3}, 4);
+        for (uint32_t k = 0; k < NUMBERS; k++)
+            wgpuQueueWriteBuffer(world.queue, compute.numbers, NUMBERS_OFFSET + 4 * k, &k, 4);
+        run_compute(&compute, NULL, NULL);
+    }
+    AWAIT(weir_test_read(compute.results, 0, sizeof back, back));
+    for (uint32_t k = 0; k < NUMBERS; k++) CHECK(back[k] == 3 * k);
+    CHECK(world.error_count == 0);
+    free_compute(&compute);
+    return DONE;
 }
 
 static int test_compute_indirect(uint32_t step)
@@ -444,6 +500,7 @@ const WeirTest weir_pass_tests[] = {
      "wgpuComputePassEncoderSetPipeline wgpuComputePassEncoderSetBindGroup "
      "wgpuComputePassEncoderDispatchWorkgroups wgpuComputePassEncoderEnd wgpuComputePassEncoderRelease",
      test_compute, false},
+    {"wgpuDeviceCreateComputePipelineAsync", test_compute_async, false},
     {"wgpuComputePassEncoderDispatchWorkgroupsIndirect", test_compute_indirect, false},
     {"wgpuDeviceCreateQuerySet wgpuCommandEncoderResolveQuerySet wgpuQuerySetRelease", test_timestamps,
      false},

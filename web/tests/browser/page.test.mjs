@@ -32,6 +32,7 @@ for (const kind of browsers) {
         Promise.race([window.weir.engine.gpu.nativeDevice.lost.then(() => false), new Promise((r) => setTimeout(r, 200, true))]));
       assert.equal(alive, true, 'the device is alive');
       await tab.until('status line', () => /[12],\d\d\d particles.*FPS.*\d\.\d\d× real time.*WebGPU/s.test(document.getElementById('status').innerText));
+      await tab.until('a real-time factor', () => window.weir.status.realTimeFactor > 0);
       const { factor, diagnostics } = await tab.evaluate(() => ({ factor: window.weir.status.realTimeFactor, diagnostics: window.weir.engine.stats.diagnostics }));
       assert.ok(factor > 0 && factor < 1.5, `real-time factor ${factor}`);
       assert.ok(diagnostics.kineticEnergy > 0 && diagnostics.lostParticles === 0);

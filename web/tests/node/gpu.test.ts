@@ -21,10 +21,18 @@ const spacing = 0.04;
 Object.assign(dam.parameters, { particle_spacing: spacing, support_radius: 2.5 * spacing });
 dam.fluid[0].velocity = [-1, -2]; // thrown into the corner: pressure and walls act from the first steps on
 
-function start(device?: Gpu): Sim {
+function create(device?: Gpu): Sim {
   const scene = weir.loadScene(dam);
-  const sim = weir.createSim(scene, device ? { gpu: device } : {});
-  scene.destroy();
+  try {
+    return weir.createSim(scene, device ? { gpu: device } : {});
+  } finally {
+    scene.destroy();
+  }
+}
+
+async function start(device?: Gpu): Promise<Sim> {
+  const sim = create(device);
+  await sim.ready();
   return sim;
 }
 
@@ -42,9 +50,32 @@ test('the device says what it is', () => {
   if (/swiftshader/i.test(gpu.device)) assert.equal(gpu.isSoftware, true);
 });
 
+test('while its shaders compile it refuses to step and to change, and can be destroyed', async () => {
+  const sim = create(gpu);
+  const before = sim.parameter('viscosity');
+  assert.throws(() => sim.step(1), /still starting/);
+  assert.throws(() => sim.advance(1), /still starting/);
+  assert.throws(() => sim.reset(), /still starting/);
+  assert.throws(() => sim.setParameter('viscosity', 7), /still starting/);
+  assert.throws(() => sim.setTool(1, [0, 0, 0], [0, 0, 0], 0.1, 1), /still starting/);
+  assert.equal(sim.read(Field.position), null);
+  const gone = create(gpu);
+  gone.destroy();
+  await sim.ready();
+  assert.deepEqual(sim.parameter('viscosity'), before);
+  sim.setParameter('viscosity', 7);
+  sim.step(2);
+  assert.equal((await diagnose(sim)).step, 2);
+  sim.destroy();
+  const going = create(gpu);
+  const ready = going.ready();
+  going.destroy();
+  await assert.rejects(ready, /destroyed while it started/);
+});
+
 test('100 steps follow the C solver', async () => {
-  const reference = start();
-  const sim = start(gpu);
+  const reference = await start();
+  const sim = await start(gpu);
   assert.equal(sim.backend, 'gpu');
   assert.equal(sim.particleCount, reference.particleCount);
   assert.deepEqual(await read(sim, Field.position), (reference.read(Field.position) as Float32Array).slice());
@@ -68,7 +99,7 @@ test('100 steps follow the C solver', async () => {
 test('two runs give the same bits', async () => {
   const hashes: string[] = [];
   for (let run = 0; run < 2; run++) {
-    const sim = start(gpu);
+    const sim = await start(gpu);
     sim.step(60);
     hashes.push((await diagnose(sim)).stateHash);
     sim.destroy();
@@ -77,7 +108,7 @@ test('two runs give the same bits', async () => {
 });
 
 test('steps, tool, parameters and reset as on the CPU', async () => {
-  const sim = start(gpu);
+  const sim = await start(gpu);
   const from = await read(sim, Field.position);
   assert.equal(sim.advance(0.002), Math.floor(0.002 / (sim.parameter('time_step')[0] as number) + 1e-6));
   sim.setParameter('gravity', [0, 0]);
@@ -98,7 +129,7 @@ test('steps, tool, parameters and reset as on the CPU', async () => {
 
 test('passes are timed by name', async (context) => {
   if (!gpu.nativeDevice?.features.has('timestamp-query')) return context.skip('no timestamps here');
-  const sim = start(gpu);
+  const sim = await start(gpu);
   const times = await until(() => {
     sim.step(1);
     sim.poll();
@@ -116,7 +147,7 @@ test('device memory comes back', async () => {
   const before = gpu.memory;
   const handles = weir.liveGpuObjects;
   for (let k = 0; k < 3; k++) {
-    const sim = start(gpu);
+    const sim = await start(gpu);
     assert.ok(gpu.memory > before + 60 * sim.particleCount);
     assert.ok(gpu.memory < before + 160 * sim.particleCount + 300_000);
     sim.step(3);
@@ -145,7 +176,7 @@ test('the renderer draws particles where they are', async () => {
   canvas.height = 256;
   const handles = weir.liveGpuObjects;
   const renderer = weir.createRenderer(gpu, canvas);
-  const sim = start(gpu);
+  const sim = await start(gpu);
   const from = await read(sim, Field.position); // the first particle is the lowest on the left
   const view: View = {
     colorBy: ColorBy.speed, colorMin: 0, colorMax: 1, center: [from[0] as number, from[1] as number],
@@ -167,7 +198,7 @@ test('the renderer draws particles where they are', async () => {
   const inside = bright(256 + 30, 128 - 30);
   const outside = bright(256 - 60, 128 + 60); // beyond the walls
   assert.ok(inside > outside + 60, `fluid ${inside}, empty ${outside}`);
-  const onCpu = start();
+  const onCpu = await start();
   assert.equal(renderer.draw(onCpu, view), Status.input); // it has no buffers to draw from
   onCpu.destroy();
   sim.destroy();
@@ -204,7 +235,7 @@ test('a canvas without WebGPU is refused', () => {
 test('a lost device is told, and the next one works', async () => {
   const lost = weir.createGpu();
   await lost.ready();
-  const sim = start(lost);
+  const sim = await start(lost);
   sim.step(1);
   lost.nativeDevice?.destroy();
   await until(() => lost.poll() !== Status.ok, 'the loss');
@@ -213,12 +244,12 @@ test('a lost device is told, and the next one works', async () => {
   assert.equal(sim.poll(), Status.device);
   assert.match(sim.error, /destroyed|lost/);
   assert.throws(() => sim.step(1), WeirError);
-  assert.throws(() => start(lost), WeirError);
+  assert.throws(() => create(lost), WeirError);
   sim.destroy();
   lost.destroy();
   const next = weir.createGpu();
   await next.ready();
-  const again = start(next);
+  const again = await start(next);
   again.step(2);
   assert.equal((await diagnose(again)).step, 2);
   again.destroy();

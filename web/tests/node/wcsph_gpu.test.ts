@@ -47,15 +47,16 @@ const deep = {
   fluid: [{ ...box([0, 0, 0], [0.25, 0.3, 0.3]), velocity: [1, 0, 0] }],
 };
 
-function start(scene: object, onGpu: boolean): Sim {
+async function start(scene: object, onGpu: boolean): Promise<Sim> {
   const loaded = weir.loadScene(scene);
   const sim = weir.createSim(loaded, onGpu ? { gpu } : {});
   loaded.destroy();
+  await sim.ready();
   return sim;
 }
 
 async function follow(document: object, steps: number, tolerance: number): Promise<void> {
-  const sims = [start(document, false), start(document, true)];
+  const sims = [await start(document, false), await start(document, true)];
   const fields: Float32Array[] = [];
   for (const sim of sims) {
     sim.step(steps);
@@ -65,7 +66,7 @@ async function follow(document: object, steps: number, tolerance: number): Promi
   assert.equal(found.length, expected.length);
   const off = found.reduce((most, value, k) => Math.max(most, Math.abs(value - (expected[k] as number))), 0);
   assert.ok(off < tolerance * spacing, `positions differ by ${off} m`);
-  const moved = start(document, false);
+  const moved = await start(document, false);
   const before = moved.read(Field.position) as Float32Array;
   assert.ok(expected.some((value, k) => Math.abs(value - (before[k] as number)) > 0.1 * spacing), 'nothing moved');
   for (const sim of [...sims, moved]) sim.destroy();
