@@ -13,6 +13,8 @@ enum {
     MAX_REPETITIONS = 64,
     ANEW_BATCH = 256, // steps; the fluid of a batch is still much as it started
     MAX_BATCH = 1024,
+    STIRRED_BATCH = 512, // of a fluid that calms down: so many of these and no more, on a fast machine too
+    STIRRED_REPETITIONS = 5,
     SETTLING_STEPS = 200, // of a fluid whose batches follow one another, before the first
 };
 
@@ -20,6 +22,7 @@ typedef struct Measurement {
     WeirSim *sim;
     const WeirBenchCase *bench_case; // NULL: a scene file
     bool anew;                       // every batch starts from the same fluid
+    bool stirred;                    // the fluid calms down
     const WeirBenchEffort *effort;
     double times[MAX_REPETITIONS]; // s per step
     uint32_t count;
@@ -51,7 +54,7 @@ static double time_steps(const Measurement *m, uint32_t steps)
 static uint32_t warm_up(const Measurement *m, double *batch)
 {
     double wish = 0.1 * m->effort->seconds, end = weir_wall_time() + 10.0 * m->effort->seconds;
-    uint32_t most = m->anew ? ANEW_BATCH : MAX_BATCH, steps = 1;
+    uint32_t most = m->anew ? ANEW_BATCH : m->stirred ? STIRRED_BATCH : MAX_BATCH, steps = 1;
     *batch = time_steps(m, steps);
     while (*batch >= 0.0 && *batch < wish && steps < most) {
         steps = 2 * steps < most ? 2 * steps : most;
@@ -67,7 +70,8 @@ static bool measure_steps(Measurement *m)
 {
     double batch, spent = 0.0, seconds = m->effort->seconds;
     uint32_t steps = warm_up(m, &batch), least = batch > seconds ? 1 : m->effort->repetitions;
-    while (batch >= 0.0 && m->count < MAX_REPETITIONS && (m->count < least || spent < seconds)) {
+    uint32_t most = m->stirred ? STIRRED_REPETITIONS : MAX_REPETITIONS;
+    while (batch >= 0.0 && m->count < most && (m->count < least || spent < seconds)) {
         batch = time_steps(m, steps);
         m->times[m->count++] = batch / steps;
         spent += batch;
@@ -130,6 +134,7 @@ WeirStatus weir_bench_measure(const WeirScene *scene, const WeirBenchCase *bench
     Measurement m = {.sim = sim,
                      .bench_case = bench_case,
                      .anew = !bench_case || weir_bench_starts_anew(bench_case),
+                     .stirred = bench_case && weir_bench_is_stirred(bench_case),
                      .effort = effort};
     WeirNeighborCount near = {0};
     WeirStatus status = weir_sim_wait(sim);

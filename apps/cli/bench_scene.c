@@ -57,6 +57,11 @@ bool weir_bench_starts_anew(const WeirBenchCase *bench_case)
     return bench_case->kind <= WEIR_BENCH_COMPRESSED;
 }
 
+bool weir_bench_is_stirred(const WeirBenchCase *bench_case)
+{
+    return bench_case->kind == WEIR_BENCH_BOX || bench_case->kind == WEIR_BENCH_CALM;
+}
+
 // ---- mueller ----
 
 // Columns of a block of exactly `count` particles, near a share `aspect` of its rows; a prime count
@@ -315,8 +320,7 @@ static WeirStatus replace_state(const WeirBenchCase *bench_case, WeirSim *sim)
 
 WeirStatus weir_bench_prepare(const WeirBenchCase *bench_case, WeirSim *sim)
 {
-    if (bench_case->kind == WEIR_BENCH_BOX || bench_case->kind == WEIR_BENCH_CALM ||
-        bench_case->kind == WEIR_BENCH_COMPRESSED)
+    if (weir_bench_is_stirred(bench_case) || bench_case->kind == WEIR_BENCH_COMPRESSED)
         return replace_state(bench_case, sim);
     if (bench_case->kind != WEIR_BENCH_SPLASH) return WEIR_OK;
     // The front is at the other side after about 1.5 sqrt(H/g).

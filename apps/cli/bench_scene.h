@@ -40,6 +40,8 @@ const WeirBenchCase *weir_bench_case(const char *name);
 bool weir_bench_is_wcsph(const WeirBenchCase *bench_case);
 // True if every batch of steps starts from the same fluid, for the fluid changes at once; otherwise they follow one another.
 bool weir_bench_starts_anew(const WeirBenchCase *bench_case);
+// True if the fluid calms down, so that what is measured depends on the steps before.
+bool weir_bench_is_stirred(const WeirBenchCase *bench_case);
 // A block of exactly `count` particles (wcsph: about as many). NULL if memory runs out; otherwise weir_scene_check()
 // has the last word.
 WeirScene *weir_bench_scene(const WeirBenchCase *bench_case, uint32_t count);

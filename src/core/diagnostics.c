@@ -43,12 +43,15 @@ static double potential(const WeirParameters *parameters, const WeirConstants *c
     return sum;
 }
 
-// Walls of particles give way a little: a particle of `wcsph` is lost half a spacing beyond the domain, where the
-// first layer of wall lies.
+float weir_domain_slack(const WeirParameters *parameters, const WeirConstants *constants)
+{
+    return constants->coordinate_bits > 0 ? 0.5f * parameters->particle_spacing : 0.0f;
+}
+
 static bool is_lost(const WeirParameters *parameters, const WeirConstants *constants, const float *position,
                     const float *velocity, uint32_t dimension)
 {
-    float slack = constants->coordinate_bits > 0 ? 0.5f * parameters->particle_spacing : 0.0f;
+    float slack = weir_domain_slack(parameters, constants);
     for (uint32_t axis = 0; axis < dimension; ++axis) {
         // Written so that NaN counts as lost.
         if (!(position[axis] >= constants->domain_min[axis] - slack &&

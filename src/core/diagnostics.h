@@ -8,5 +8,8 @@
 // are to be counted and memory runs out.
 WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameters,
                          const WeirConstants *constants, bool count_neighbors, WeirDiagnostics *diagnostics);
+// How far beyond the domain fluid may stand: walls of particles give way a little, so that a particle of `wcsph` is lost half a
+// spacing beyond the domain, where the first layer of wall lies.
+float weir_domain_slack(const WeirParameters *parameters, const WeirConstants *constants);
 // FNV-1a over the 32-bit words of x, y, (z,) vx, vy, (vz,) particle by particle.
 uint64_t weir_state_hash(const WeirState *state);

@@ -388,13 +388,14 @@ static WeirStatus check_state(WeirSim *sim, const float *positions, const float 
 {
     const WeirConstants *constants = &sim->constants;
     uint32_t dimension = sim->scene->dimension;
+    float slack = weir_domain_slack(&sim->parameters, constants);
     for (size_t k = 0; k < dimension * (size_t)sim->fluid_slots; ++k) {
         size_t axis = k % dimension;
-        if (!(positions[k] >= constants->domain_min[axis] && positions[k] <= constants->domain_max[axis])) {
+        float low = constants->domain_min[axis] - slack, high = constants->domain_max[axis] + slack;
+        if (!(positions[k] >= low && positions[k] <= high)) {
             return weir_fail(&sim->error, WEIR_ERROR_INPUT,
                              "positions: particle %zu has %c = %g; the domain allows %g to %g", k / dimension,
-                             "xyz"[axis], (double)positions[k], (double)constants -> domain_min[axis],
-                             (double)constants -> domain_max[axis]);
+                             "xyz"[axis], (double)positions[k], (double)low, (double)high);
         }
         if (!isfinite(velocities[k])) {
             return weir_fail(&sim->error, WEIR_ERROR_INPUT,

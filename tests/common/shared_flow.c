@@ -593,6 +593,32 @@ static void advance_tells_the_steps_that_it_queues(const WeirBackend *backend)
     weir_scene_destroy(scene);
 }
 
+// Walls of particles give way a little: what stands in one, as single particles do in stirred fluid, can be read, so it can be
+// set too. Deeper than half a spacing no fluid comes.
+static void fluid_in_a_wall_is_a_state(const WeirBackend *backend)
+{
+    const float spacing = 0.02f;
+    WeirScene *scene = tank(2, 1, 0.5, spacing);
+    add_box(scene, 0, 0.3, 0.3);
+    WeirSim *sim = weir_test_sim(scene, backend, 0);
+    float *position = weir_test_read(sim, WEIR_FIELD_POSITION);
+    float *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+    position[0] = -0.4f * spacing;
+    weir_test_set_state(sim, position, velocity);
+    weir_test_step(sim, 2);
+    float *later = weir_test_read(sim, WEIR_FIELD_POSITION);
+    assert_true(later[0] > position[0] && later[0] < 0.1f * spacing); // pushed back
+    weir_test_set_state(sim, later, velocity);
+    position[0] = -0.6f * spacing;
+    CHECK_SIM(sim, weir_sim_set_state(sim, position, velocity), WEIR_ERROR_INPUT);
+    CHECK_CONTAINS(weir_sim_error(sim), "positions: particle 0 has x = -0.012; the domain allows -0.01 to 1.01");
+    free(position);
+    free(velocity);
+    free(later);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_body_gets_what_the_fluid_loses),
     WEIR_SHARED_TEST(a_far_column_falls_as_the_near_one),
@@ -611,5 +637,6 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(ragged_fluid_loses_energy),
     WEIR_SHARED_TEST(crowded_fluid_spreads),
     WEIR_SHARED_TEST(advance_tells_the_steps_that_it_queues),
+    WEIR_SHARED_TEST(fluid_in_a_wall_is_a_state),
 };
 WEIR_SHARED_GROUP(flow, tests);
