@@ -68,6 +68,7 @@ static bool is_lost(const WeirParameters *parameters, const WeirConstants *const
 // Particles by cell of one support radius, as lists of indices in a hash table: it needs no bounds.
 typedef struct CellTable {
     uint32_t *head, *next; // index + 1, 0 ends a list
+    uint64_t *key;         // of each particle's cell
     uint32_t mask;
     uint32_t dimension;
     double radius, origin[3], period[3]; // period 0: none
@@ -88,11 +89,16 @@ static void cell_of(const CellTable *table, const float *position, int64_t cell[
     }
 }
 
-static uint32_t bucket_of(const CellTable *table, const int64_t cell[3])
+// Cells with one key are 2^21 cells apart: no particle has both around it.
+static uint64_t key_of(const int64_t cell[3])
 {
-    uint64_t hash = (uint64_t)cell[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)cell[1] * 0xc2b2ae3d27d4eb4fu ^
-                    (uint64_t)cell[2] * 0x165667b19e3779f9u;
-    return (uint32_t)(hash >> 29) & table->mask;
+    const uint64_t most = (1u << 21) - 1;
+    return ((uint64_t)cell[0] & most) | ((uint64_t)cell[1] & most) << 21 | ((uint64_t)cell[2] & most) << 42;
+}
+
+static uint32_t bucket_of(const CellTable *table, uint64_t key)
+{
+    return (uint32_t)(key * 0x9e3779b97f4a7c15u >> 32) & table->mask;
 }
 
 static bool is_near(const CellTable *table, const float *a, const float *b)
@@ -110,12 +116,10 @@ static bool is_near(const CellTable *table, const float *a, const float *b)
 static uint64_t count_in_cell(const CellTable *table, const WeirState *state, const int64_t cell[3],
                               uint32_t i)
 {
-    uint64_t count = 0;
+    uint64_t count = 0, key = key_of(cell);
     size_t dimension = table->dimension;
-    for (uint32_t j = table->head[bucket_of(table, cell)]; j; j = table->next[j - 1]) {
-        int64_t other[3];
-        cell_of(table, &state->position[dimension * (j - 1)], other);
-        if (memcmp(other, cell, sizeof other) != 0 || j - 1 == i) continue;
+    for (uint32_t j = table->head[bucket_of(table, key)]; j; j = table->next[j - 1]) {
+        if (table->key[j - 1] != key || j - 1 == i) continue;
         count += is_near(table, &state->position[dimension * i], &state->position[dimension * (j - 1)]);
     }
     return count;
@@ -168,14 +172,17 @@ static WeirStatus mean_neighbors(const WeirState *state, const WeirParameters *p
     while (table.mask < state->count && table.mask < 0x7FFFFFFFu) table.mask = 2 * table.mask + 1;
     start_table(&table, parameters, constants);
     table.head = calloc((size_t)table.mask + 1, sizeof(uint32_t));
-    table.next = malloc(state->count * sizeof(uint32_t));
+    table.next = malloc(state->count * sizeof *table.next);
+    table.key = malloc(state->count * sizeof *table.key);
+    bool made = table.head && table.next && table.key;
     uint64_t sum = 0, fluid = 0;
-    if (table.head && table.next) {
+    if (made) {
         for (uint32_t i = 0; i < state->count; ++i) {
             if (state->group && state->group[i] == WEIR_GROUP_EMPTY) continue;
             int64_t cell[3];
             cell_of(&table, &state->position[(size_t)table.dimension * i], cell);
-            uint32_t *head = &table.head[bucket_of(&table, cell)];
+            table.key[i] = key_of(cell);
+            uint32_t *head = &table.head[bucket_of(&table, table.key[i])];
             table.next[i] = *head;
             *head = i + 1;
         }
@@ -185,11 +192,11 @@ static WeirStatus mean_neighbors(const WeirState *state, const WeirParameters *p
             ++fluid;
         }
     }
-    WeirStatus status = table.head && table.next ? WEIR_OK : WEIR_ERROR_MEMORY;
     free(table.head);
     free(table.next);
+    free(table.key);
     *mean = fluid > 0 ? (double)sum / (double)fluid : 0.0;
-    return status;
+    return made ? WEIR_OK : WEIR_ERROR_MEMORY;
 }
 
 WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameters,

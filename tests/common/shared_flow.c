@@ -611,7 +611,8 @@ static void fluid_in_a_wall_is_a_state(const WeirBackend *backend)
     weir_test_set_state(sim, later, velocity);
     position[0] = -0.6f * spacing;
     CHECK_SIM(sim, weir_sim_set_state(sim, position, velocity), WEIR_ERROR_INPUT);
-    CHECK_CONTAINS(weir_sim_error(sim), "positions: particle 0 has x = -0.012; the domain allows -0.01 to 1.01");
+    CHECK_CONTAINS(weir_sim_error(sim),
+                   "positions: particle 0 has x = -0.012; the domain allows -0.01 to 1.01");
     free(position);
     free(velocity);
     free(later);
