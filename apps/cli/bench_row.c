@@ -13,8 +13,8 @@ enum {
     MAX_REPETITIONS = 64,
     ANEW_BATCH = 256, // steps; the fluid of a batch is still much as it started
     MAX_BATCH = 1024,
-    STIRRED_BATCH = 512, // of a fluid that calms down: so many of these and no more, on a fast machine too
-    STIRRED_REPETITIONS = 5,
+    STIRRED_BATCH = 256, // of a fluid that calms down: so many of these and no more, on a fast machine too
+    STIRRED_REPETITIONS = 7,
     SETTLING_STEPS = 200, // of a fluid whose batches follow one another, before the first
 };
 
