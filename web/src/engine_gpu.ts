@@ -44,6 +44,7 @@ export class GpuEngine implements Engine {
   readonly #onFault: FaultHandler;
   readonly #pace = new Pace();
   #sim: Sim | null = null;
+  #creating: Promise<Sim> | null = null; // the next one
   #inFlight = 0;
   #owedWall = 0; // of animation frames that were skipped
   #lastDone = 0;
@@ -109,7 +110,8 @@ export class GpuEngine implements Engine {
   }
 
   async start(scene: SceneDocument, from: Snapshot | null): Promise<void> {
-    const next = await this.#create(scene);
+    this.#creating = this.#create(scene);
+    const next = await this.#creating;
     if (this.#destroyed) {
       next.destroy();
       throw new Error('the engine was closed');
@@ -346,13 +348,17 @@ export class GpuEngine implements Engine {
   destroy(): void {
     this.#destroyed = true;
     this.#canvas.remove();
-    afterFrames(() => {
-      this.#probes?.destroy();
-      this.#probes = null;
-      this.#sim?.destroy();
-      this.#sim = null;
-      this.#renderer.destroy();
-      this.gpu.destroy();
-    });
+    afterFrames(() => void this.#release());
+  }
+
+  // A simulation that is being made still needs the device.
+  async #release(): Promise<void> {
+    await this.#creating?.catch(() => null);
+    this.#probes?.destroy();
+    this.#probes = null;
+    this.#sim?.destroy();
+    this.#sim = null;
+    this.#renderer.destroy();
+    this.gpu.destroy();
   }
 }
