@@ -45,8 +45,9 @@ for (const kind of browsers) {
         const tab = await open(`backend=${backend}&scene=dam_2d&particles=300`);
         await tab.engine(backend === 'gpu' ? 'gpu' : 'worker');
         await tab.until('more than two steps in a frame', () => window.weir.engine.stats.frameSteps > 2);
-        const { stepMs, steps, frameSteps } = await tab.evaluate(() => window.weir.engine.stats);
-        assert.ok(stepMs > 0 && stepMs < 100 && steps >= frameSteps, `${stepMs} ms per step, ${steps} steps`);
+        await tab.until('more steps than two for each frame', () => window.weir.engine.stats.steps > 2 * window.weir.engine.stats.frames);
+        const { stepMs } = await tab.evaluate(() => window.weir.engine.stats);
+        assert.ok(stepMs > 0 && stepMs < 100, `${stepMs} ms per step`);
         await tab.close();
       });
     }
@@ -454,10 +455,11 @@ for (const kind of browsers) {
       const { gates, device, passed } = await tab.evaluate(() => window.validation);
       assert.ok(device !== '' && !/^CPU/.test(device), `measured on ${device}`);
       assert.ok(passed && gates.every((gate) => Number.isFinite(gate.value)), JSON.stringify(gates));
-      // Steps are slow on a software adapter, and so are its first looks at the shaders: 20 s on two idle cores.
+      // Steps are slow on a software adapter, and so are its first looks at the shaders: 6 to 32 s on two idle cores, and
+      // once 114 s after all the other tests.
       await tab.evaluate(() => document.querySelector('[data-case="taylor_green"]').click());
       await tab.page.click('#run');
-      await tab.within(120, 'simulated time', () => window.validation.frames > 0 && window.validation.time > 0);
+      await tab.within(240, 'simulated time', () => window.validation.frames > 0 && window.validation.time > 0);
       await tab.page.click('#stop');
       assert.equal(await tab.evaluate(() => window.validation.running), false);
       await tab.close();
