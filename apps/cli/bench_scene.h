@@ -32,8 +32,7 @@ typedef struct WeirBenchCase {
 #define WEIR_BENCH_CASES                                                                                     \
     "article|n20|block_2d|block_3d|dam_2d|dam_3d|splash_2d|splash_3d|pool_2d|pool_3d|box_2d|box_3d|"         \
     "calm_2d|calm_3d|box_2d_n45|box_3d_n111|box_3d_n165|corner_2d|corner_3d|far_2d|far_3d|thin_2d|thin_3d|"  \
-    "emitters_2d|"                                                                                           \
-    "emitters_3d|compressed_2d|compressed_3d"
+    "emitters_2d|emitters_3d|compressed_2d|compressed_3d"
 
 // NULL if there is none of that name.
 const WeirBenchCase *weir_bench_case(const char *name);

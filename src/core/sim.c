@@ -237,7 +237,9 @@ WeirStatus weir_sim_step_until(WeirSim *sim, uint32_t steps, double time)
 WeirStatus weir_sim_run_until(WeirSim *sim, double time)
 {
     while (!sim->status && sim->time < time - slack_before(sim, time)) {
-        WeirStatus status = weir_sim_step_until(sim, MOST_QUEUED, time);
+        // In a browser the steps of the call before may be under way, which could reach `time`.
+        WeirStatus status = weir_sim_wait(sim);
+        if (status == WEIR_OK) status = weir_sim_step_until(sim, MOST_QUEUED, time);
         if (status == WEIR_OK) status = weir_sim_wait(sim);
         if (status) return status;
     }

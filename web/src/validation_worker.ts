@@ -4,7 +4,7 @@ import { fillPoints, looksOf } from './cpu_runner.ts';
 import { floatsPerParticle } from './points.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { Validation, type CurveData, type Gate, type Resolution, type RunInfo } from './validation_api.ts';
-import { ColorBy, Field, Status, Weir, WeirError, type Gpu, type Scene, type Sim } from './weir.ts';
+import { ColorBy, Field, Weir, type Gpu, type Scene, type Sim } from './weir.ts';
 
 export type Solver = 'gpu' | 'cpu';
 
@@ -31,11 +31,6 @@ const textOf = (error: unknown): string => (error instanceof Error ? error.messa
 
 // A timer, so that callbacks of the GPU get their turn: a worker that posts messages to itself starves them (Chromium).
 const nextTurn = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 0));
-
-async function wait(sim: Sim): Promise<void> {
-  while (sim.poll() === Status.pending) await nextTurn();
-  if (sim.status !== Status.ok) throw new WeirError(sim.status, sim.error);
-}
 
 // One case, run by run.
 class Job {
@@ -124,7 +119,7 @@ class Job {
         const asked = performance.now();
         sim.stepUntil(this.#queued, Math.min(this.#samples * interval, endTime));
         if (this.#gpu) {
-          await wait(sim);
+          await sim.finished();
           this.#pace(performance.now() - asked);
         }
         if (sim.time !== time) continue;

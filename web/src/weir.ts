@@ -220,6 +220,17 @@ function readParameters({ memory, c }: Context): ParameterInfo[] {
   return list;
 }
 
+// Asks again until the answer is not `pending`. A timer lets the GPU's callbacks run in between, in workers too.
+async function unlessPending(ask: () => Status, isAlive: () => boolean, gone: string): Promise<Status> {
+  let status = ask();
+  while (status === Status.pending) {
+    await new Promise((resolve) => setTimeout(resolve, 1));
+    if (!isAlive()) throw new WeirError(Status.device, gone);
+    status = ask();
+  }
+  return status;
+}
+
 export class Gpu {
   readonly pointer: number; // WeirGpu in wasm memory
   readonly #context: Context;
@@ -233,12 +244,7 @@ export class Gpu {
 
   // Resolves when the device is there; throws WeirError if there is none.
   async ready(): Promise<void> {
-    let status = this.poll();
-    while (status === Status.pending) {
-      await new Promise((resolve) => setTimeout(resolve, 1));
-      if (!this.#alive) throw new WeirError(Status.device, 'the GPU was destroyed while it started');
-      status = this.poll();
-    }
+    const status = await unlessPending(() => this.poll(), () => this.#alive, 'the GPU was destroyed while it started');
     if (status !== Status.ok) throw new WeirError(status, this.error);
   }
 
@@ -456,13 +462,13 @@ export class Sim {
   // Resolves when it may step, on the GPU when its shaders are compiled; until then what would step or change it throws.
   // Throws WeirError if it cannot run.
   async ready(): Promise<void> {
-    let status = this.poll();
-    while (status === Status.pending) {
-      await new Promise((resolve) => setTimeout(resolve, 1));
-      if (!this.#alive) throw new WeirError(Status.device, 'the simulation was destroyed while it started');
-      status = this.poll();
-    }
-    this.#throwIf(status);
+    this.#throwIf(await unlessPending(() => this.poll(), () => this.#alive, 'the simulation was destroyed while it started'));
+  }
+
+  // Resolves when all steps asked for are done, and stepCount and time tell of them. Throws WeirError.
+  async finished(): Promise<void> {
+    const wait = (): Status => this.#context.c.weir_sim_wait(this.pointer);
+    this.#throwIf(await unlessPending(wait, () => this.#alive, 'the simulation was destroyed while it stepped'));
   }
 
   get stepCount(): number {

@@ -72,6 +72,15 @@ async function follow(document: object, steps: number, tolerance: number): Promi
   for (const sim of [...sims, moved]) sim.destroy();
 }
 
+test('finished() waits for the steps that are queued', async () => {
+  const sim = await start(tank, true);
+  sim.step(5);
+  await sim.finished();
+  assert.equal(sim.stepCount, 5);
+  assert.ok(sim.time > 0);
+  sim.destroy();
+});
+
 test('2D: 40 steps of a tank follow the C solver', () => follow(tank, 40, 1e-3));
 test('2D: moving wall, body, emitter and drain', () => follow(lively, 40, 5e-3));
 test('2D: 1,024 emitters and drains', () => follow(crowd, 30, 5e-3));
