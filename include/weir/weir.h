@@ -174,8 +174,11 @@ WeirStatus weir_sim_wait(WeirSim *sim);
 // Back to the scene's start.
 WeirStatus weir_sim_reset(WeirSim *sim);
 // Changes a parameter of the running simulation; same checks and messages as weir_scene_set_*. Parameters that
-// are not live are refused: change the scene and make a new simulation.
+// are not live are refused: change the scene and make a new simulation. It holds from the next step on; in a browser, where
+// one that needs other shaders compiles them beside all else, from the first step after weir_sim_poll() found them ready.
 WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *values, size_t count);
+// True while a change waits for its shaders: steps go on as before it, and what else is set (the tool) waits too.
+bool weir_sim_is_changing(const WeirSim *sim);
 // Replaces positions and velocities (dimension * particle_count floats each: x0, y0, x1, y1, ...). Those of walls
 // and bodies are not read: they stay where the scene starts them.
 WeirStatus weir_sim_set_state(WeirSim *sim, const float *positions, const float *velocities);

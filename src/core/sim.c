@@ -460,6 +460,11 @@ WeirStatus weir_sim_set_parameter(WeirSim *sim, const char *name, const double *
     return configure(sim);
 }
 
+bool weir_sim_is_changing(const WeirSim *sim)
+{
+    return sim->solver && sim->solver->changing;
+}
+
 static WeirStatus check_tool(WeirSim *sim, const WeirTool *tool)
 {
     if ((uint32_t)tool->kind > WEIR_TOOL_STIR) {

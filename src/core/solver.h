@@ -71,6 +71,7 @@ struct WeirSolver {
     char device[128];    // for people: what it runs on
     uint32_t threads;    // 0 on the GPU
     uint64_t memory;     // bytes of the device's buffers; 0 on the CPU
+    bool changing;       // configure() waits for shaders, in a browser; steps go on as before until it holds
     WeirMessage message; // of the last call that failed
 };
 

@@ -86,14 +86,14 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     uint32_t most = steps_per_submit(&solver->common);
     bool measured = weir_profile_ready(solver->common.profile);
     while (steps > 0) {
-        WeirStatus status = weir_gpu_solver_check(&solver->common);
+        WeirStatus status = weir_gpu_solver_ready(&solver->common);
         if (status != WEIR_OK) return status;
         uint32_t batch = steps < most ? steps : most;
         submit_steps(solver, batch, measured);
         steps -= batch;
         measured = false;
     }
-    return weir_gpu_solver_check(&solver->common);
+    return weir_gpu_solver_ready(&solver->common);
 }
 
 void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder)
@@ -125,24 +125,14 @@ static void destroy(WeirSolver *base)
     free(solver);
 }
 
-static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
-                            const WeirConstants *constants)
+static uint32_t choose(const WeirGpuSolver *solver, char settings[WEIR_SETTINGS_LENGTH])
 {
-    WeirGpuSolver *solver = (WeirGpuSolver *)base;
-    WeirStatus status = weir_gpu_solver_check(solver);
-    if (status != WEIR_OK) return status;
-    // The layout of cell_link and the sizes of the buffers depend on it; it follows from no live parameter.
-    if (constants->cell_count != solver->constants.cell_count)
-        return weir_fail(&base->message, WEIR_ERROR_INPUT,
-                         "the neighbour grid would change from %u to %u cells: make a new simulation",
-                         solver->constants.cell_count, constants->cell_count);
-    uint32_t threads = constants->particle_count * weir_mueller_lanes(constants->particle_count);
-    solver->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(threads);
-    char settings[WEIR_SETTINGS_LENGTH];
-    uint32_t needed = weir_mueller_settings(parameters, constants, settings);
-    status = weir_passes_prepare(&solver->passes, settings, needed, solver->report, &base->message);
-    if (status == WEIR_OK) weir_gpu_solver_configure(solver, parameters, constants);
-    return status;
+    return weir_mueller_settings(&solver->wanted_parameters, &solver->wanted_constants, settings);
+}
+
+static void take_change(WeirGpuSolver *solver)
+{
+    (void)solver; // the uniforms are all
 }
 
 // Ids in order, and the positions rounded once.
@@ -187,20 +177,20 @@ static WeirStatus start(WeirGpuSolver *common)
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
     weir_mueller_evaluate((WeirMueller *)common, encoder);
     weir_gpu_submit(common->gpu, encoder, "set_state");
-    return weir_gpu_solver_check(common);
+    return weir_gpu_solver_ready(common);
 }
 
 static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
 {
     WeirMueller *solver = (WeirMueller *)base;
-    WeirStatus status = weir_gpu_solver_check(&solver->common);
+    WeirStatus status = weir_gpu_solver_ready(&solver->common);
     if (status == WEIR_OK) status = write_state(solver, particles);
     return status == WEIR_OK ? weir_gpu_solver_begin(&solver->common) : status;
 }
 
 static const WeirSolverInterface mueller_interface = {
     .destroy = destroy,
-    .configure = configure,
+    .configure = weir_gpu_solver_configure,
     .set_state = set_state,
     .step = step,
     .poll = weir_gpu_solver_poll,
@@ -225,7 +215,9 @@ static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMe
     if (!solver->host)
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
                          (unsigned long long)count);
-    status = configure(&common->base, &setup->parameters, &setup->constants);
+    uint32_t threads = (uint32_t)count * weir_mueller_lanes((uint32_t)count);
+    common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(threads);
+    status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) status = set_state(&common->base, &setup->world->particles);
     if (status != WEIR_OK) *message = common->base.message;
     return status;
@@ -243,6 +235,8 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
     common->base.interface = &mueller_interface;
     common->gpu = gpu;
     common->start = start;
+    common->choose = choose;
+    common->take_change = take_change;
     common->health_buffer = WEIR_MUELLER_health;
     common->health_size = sizeof(WeirDeviceHealth);
     common->take_health = weir_mueller_take_health;

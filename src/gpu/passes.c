@@ -207,25 +207,24 @@ static void release_pipelines(WeirVariant *variant)
     }
 }
 
-// The variant of these settings; if there is none, it takes the place of the one made longest ago.
-static WeirVariant *find_variant(WeirPasses *passes, const char *settings)
+// The variant of these settings; if there is none, it takes the place of the one made longest ago that does not run.
+static uint32_t find_variant(WeirPasses *passes, const char *settings)
 {
-    for (uint32_t n = 0; n < passes->made && n < WEIR_MAX_VARIANTS; ++n) {
-        if (strcmp(passes->variants[n].settings, settings) != 0) continue;
-        passes->current = n;
-        return &passes->variants[n];
-    }
-    passes->current = passes->made++ % WEIR_MAX_VARIANTS;
-    WeirVariant *variant = &passes->variants[passes->current];
+    for (uint32_t n = 0; n < passes->made && n < WEIR_MAX_VARIANTS; ++n)
+        if (strcmp(passes->variants[n].settings, settings) == 0) return n;
+    if (passes->made > 0 && passes->made % WEIR_MAX_VARIANTS == passes->current) ++passes->made;
+    uint32_t found = passes->made++ % WEIR_MAX_VARIANTS;
+    WeirVariant *variant = &passes->variants[found];
     release_pipelines(variant);
     snprintf(variant->settings, sizeof variant->settings, "%s", settings);
-    return variant;
+    return found;
 }
 
 WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,
                                WeirMessage *message)
 {
-    WeirVariant *variant = find_variant(passes, settings);
+    passes->next = find_variant(passes, settings);
+    WeirVariant *variant = &passes->variants[passes->next];
     for (uint32_t pass = 0; pass < passes->method->pass_count; ++pass) {
         if (!(needed >> pass & 1)) continue;
         const char *label = passes->method->passes[pass].label;
@@ -238,6 +237,11 @@ WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_
             return weir_fail(message, WEIR_ERROR_MEMORY, "%s: no host memory for it", label);
     }
     return weir_report_check(report, message);
+}
+
+void weir_passes_use_prepared(WeirPasses *passes)
+{
+    passes->current = passes->next;
 }
 
 void weir_passes_destroy(WeirPasses *passes)

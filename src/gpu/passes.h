@@ -57,18 +57,21 @@ typedef struct WeirPasses {
     WGPUBindGroupLayout layout[WEIR_MAX_PASSES];
     WGPUBindGroup bind_group[WEIR_MAX_PASSES];
     WeirVariant variants[WEIR_MAX_VARIANTS];
-    uint32_t current, made; // the variant that runs; variants made so far
-    bool in_background;     // pipelines come some time after they were asked for
+    uint32_t current, next; // the variant that runs, and the one prepared last
+    uint32_t made;          // variants so far
+    bool in_background;     // pipelines come some time after they were asked for: when the report is no longer pending
 } WeirPasses;
 
 // Storage buffers that a pass binds, each in one part: WebGPU promises no more than 8.
 uint32_t weir_pass_storage_buffers(const WeirPassInfo *pass);
 // WEIR_ERROR_MEMORY with a message if the device allows a pass fewer than the parts of its buffers are.
 WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message);
-// Makes what the passes in the bits of `needed` lack under `settings`, which then are the ones that run: WGSL
-// constants of at most WEIR_SETTINGS_LENGTH - 1 characters. Faults go to `report`.
+// Makes what the passes in the bits of `needed` lack under `settings`, WGSL constants of at most
+// WEIR_SETTINGS_LENGTH - 1 characters. Faults go to `report`. Not to be called while pipelines are under way.
 WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,
                                WeirMessage *message);
+// What was prepared last runs from now on.
+void weir_passes_use_prepared(WeirPasses *passes);
 void weir_passes_destroy(WeirPasses *passes);
 // Workgroups of a dispatch along its two dimensions.
 void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2]);

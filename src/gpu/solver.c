@@ -67,31 +67,67 @@ void weir_gpu_solver_destroy(WeirGpuSolver *solver)
     weir_report_destroy(solver->report);
 }
 
+static bool pipelines_are_under_way(const WeirGpuSolver *solver)
+{
+    return solver->passes.in_background && weir_report_pending(solver->report);
+}
+
 WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver)
 {
-    solver->starting = solver->passes.in_background && weir_report_pending(solver->report);
+    solver->starting = !solver->running && pipelines_are_under_way(solver);
     if (solver->starting) return WEIR_OK;
-    solver->passes.in_background = false; // from now on what is asked for is to run at once
+    solver->running = true;
     return solver->start(solver);
 }
 
-WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver)
+static void take_change(WeirGpuSolver *solver)
+{
+    solver->base.changing = false;
+    weir_passes_use_prepared(&solver->passes);
+    solver->parameters = solver->wanted_parameters;
+    solver->constants = solver->wanted_constants;
+    // The two uniforms come first in every method's list.
+    weir_buffers_write(&solver->buffers, 0, &solver->parameters, sizeof solver->parameters);
+    weir_buffers_write(&solver->buffers, 1, &solver->constants, sizeof solver->constants);
+    solver->take_change(solver);
+}
+
+// What is wanted by now may need other pipelines than those that have just come.
+static WeirStatus pursue_change(WeirGpuSolver *solver)
+{
+    if (!solver->base.changing || (solver->running && pipelines_are_under_way(solver))) return WEIR_OK;
+    char settings[WEIR_SETTINGS_LENGTH];
+    uint32_t needed = solver->choose(solver, settings);
+    WeirStatus status =
+        weir_passes_prepare(&solver->passes, settings, needed, solver->report, &solver->base.message);
+    if (status == WEIR_OK && !(solver->running && pipelines_are_under_way(solver))) take_change(solver);
+    return status;
+}
+
+WeirStatus weir_gpu_solver_ready(WeirGpuSolver *solver)
 {
     WeirStatus status = weir_report_check(solver->report, &solver->base.message);
     if (status == WEIR_OK) status = weir_gpu_check(solver->gpu, &solver->base.message);
-    if (status != WEIR_OK || !solver->starting) return status;
-    status = weir_gpu_solver_begin(solver);
-    return solver->starting ? WEIR_PENDING : status;
+    if (status == WEIR_OK && solver->starting) status = weir_gpu_solver_begin(solver);
+    if (status == WEIR_OK) status = pursue_change(solver);
+    return status == WEIR_OK && solver->starting ? WEIR_PENDING : status;
 }
 
-void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,
-                               const WeirConstants *constants)
+WeirStatus weir_gpu_solver_configure(WeirSolver *base, const WeirParameters *parameters,
+                                     const WeirConstants *constants)
 {
-    solver->parameters = *parameters;
-    solver->constants = *constants;
-    // The two uniforms come first in every method's list.
-    weir_buffers_write(&solver->buffers, 0, parameters, sizeof *parameters);
-    weir_buffers_write(&solver->buffers, 1, constants, sizeof *constants);
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    WeirStatus status = weir_gpu_solver_ready(solver);
+    if (status != WEIR_OK) return status;
+    // The layout of cell_link and the sizes of the buffers depend on it; it follows from no live parameter.
+    if (constants->cell_count != solver->constants.cell_count)
+        return weir_fail(&base->message, WEIR_ERROR_INPUT,
+                         "the neighbour grid would change from %u to %u cells: make a new simulation",
+                         solver->constants.cell_count, constants->cell_count);
+    solver->wanted_parameters = *parameters;
+    solver->wanted_constants = *constants;
+    base->changing = true;
+    return pursue_change(solver);
 }
 
 // ---- Recording ----
@@ -179,11 +215,11 @@ WeirStatus weir_gpu_solver_poll(WeirSolver *base, WeirHealth *health)
 {
     WeirGpuSolver *solver = (WeirGpuSolver *)base;
     weir_gpu_poll(solver->gpu);
-    WeirStatus status = weir_gpu_solver_check(solver);
+    WeirStatus status = weir_gpu_solver_ready(solver);
     if (status == WEIR_OK) {
         weir_profile_poll(solver->profile);
         poll_health(solver);
-        status = weir_gpu_solver_check(solver);
+        status = weir_gpu_solver_ready(solver);
     }
     *health = solver->health;
     return status;
@@ -208,7 +244,7 @@ WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
     WeirGpuSolver *solver = (WeirGpuSolver *)base;
     for (;;) {
         weir_gpu_poll(solver->gpu);
-        WeirStatus status = weir_gpu_solver_check(solver);
+        WeirStatus status = weir_gpu_solver_ready(solver);
         if (status != WEIR_OK) return status;
         switch (weir_readback_state(solver->state_copy)) {
         case WEIR_READBACK_IDLE:

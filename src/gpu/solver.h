@@ -26,8 +26,15 @@ struct WeirGpuSolver {
     WeirReport *report;   // faults of what was made for this solver
 
     // In a browser its first pipelines come later; until then it does nothing, and says WEIR_PENDING.
-    bool starting;
+    bool starting, running;
     WeirStatus (*start)(WeirGpuSolver *solver); // the state is written: the first commands on it
+
+    // What is to hold while base.changing: those of a change come later too, and all goes on as before until they are there.
+    WeirParameters wanted_parameters;
+    WeirConstants wanted_constants;
+    // WGSL constants of what is wanted, and the passes that it needs, by bit.
+    uint32_t (*choose)(const WeirGpuSolver *solver, char settings[WEIR_SETTINGS_LENGTH]);
+    void (*take_change)(WeirGpuSolver *solver); // it holds now, and is uploaded: what the method makes of it
 
     uint64_t work;       // submits that changed the state, counted
     uint64_t state_work; // `work` when the state was last replaced
@@ -56,11 +63,9 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
 void weir_gpu_solver_destroy(WeirGpuSolver *solver);
 // Begins work on the state that was written, now or when the pipelines are there.
 WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver);
-// WEIR_OK, WEIR_PENDING while it is starting, or the first error of device or solver, with its message in base.message.
-WeirStatus weir_gpu_solver_check(WeirGpuSolver *solver);
-// Takes parameters and constants, and uploads them.
-void weir_gpu_solver_configure(WeirGpuSolver *solver, const WeirParameters *parameters,
-                               const WeirConstants *constants);
+// Does what waited for pipelines that are there now. WEIR_OK: it can work; WEIR_PENDING while it is starting; or the first
+// error of device or solver, with its message in base.message.
+WeirStatus weir_gpu_solver_ready(WeirGpuSolver *solver);
 
 // Commands to record; `label` is a static text.
 WGPUCommandEncoder weir_gpu_solver_commands(WeirGpuSolver *solver, const char *label);
@@ -77,6 +82,8 @@ void weir_recorder_end(const WeirRecorder *recorder);
 uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs);
 
 // The parts of WeirSolverInterface that are the same for all.
+WeirStatus weir_gpu_solver_configure(WeirSolver *solver, const WeirParameters *parameters,
+                                     const WeirConstants *constants);
 WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
 WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
 WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);

@@ -139,7 +139,7 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
     WeirGpuSolver *common = &solver->common;
-    WeirStatus status = weir_gpu_solver_check(common);
+    WeirStatus status = weir_gpu_solver_ready(common);
     if (status != WEIR_OK || steps == 0) return status;
     WeirWcsphControl request = {.steps_left = steps};
     write_ticks(until, request.until);
@@ -153,7 +153,7 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
         uint32_t batch = steps - done < most ? steps - done : most;
         submit_steps(solver, batch, done == 0, done + batch == steps, measured && done == 0);
         done += batch;
-        status = weir_gpu_solver_check(common);
+        status = weir_gpu_solver_ready(common);
     }
     return status;
 }
@@ -171,33 +171,29 @@ static void destroy(WeirSolver *base)
     free(solver);
 }
 
-static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
-                            const WeirConstants *constants)
+// Of what is wanted.
+static WeirWcsphTraits wanted_traits(const WeirWcsphGpu *solver)
 {
-    WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
-    WeirGpuSolver *common = &solver->common;
-    WeirStatus status = weir_gpu_solver_check(common);
-    if (status != WEIR_OK) return status;
-    // The layout of cell_link and the sizes of the buffers depend on it; it follows from no live parameter.
-    if (constants->cell_count != common->constants.cell_count)
-        return weir_fail(&base->message, WEIR_ERROR_INPUT,
-                         "the neighbour grid would change from %u to %u cells: make a new simulation",
-                         common->constants.cell_count, constants->cell_count);
-    WeirWcsphTraits *traits = &solver->traits;
-    traits->emission_interval = weir_world_emission_interval(&solver->world, parameters, constants);
-    if (traits->sort_interval > traits->emission_interval) traits->sort_interval = traits->emission_interval;
-    uint32_t count = constants->particle_count, solid_particles = count - constants->first_solid;
-    common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * count);
-    common->passes.groups[WEIR_ITEMS_SOLID_SHARES] =
-        weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
-    char settings[WEIR_SETTINGS_LENGTH];
-    uint32_t needed = weir_gpu_wcsph_settings(parameters, constants, traits, settings);
-    status = weir_passes_prepare(&common->passes, settings, needed, common->report, &base->message);
-    if (status != WEIR_OK) return status;
-    weir_gpu_solver_configure(common, parameters, constants);
-    WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, constants);
+    const WeirGpuSolver *common = &solver->common;
+    WeirWcsphTraits traits = solver->traits;
+    traits.emission_interval = weir_world_emission_interval(&solver->world, &common->wanted_parameters,
+                                                            &common->wanted_constants);
+    if (traits.sort_interval > traits.emission_interval) traits.sort_interval = traits.emission_interval;
+    return traits;
+}
+
+static uint32_t choose(const WeirGpuSolver *common, char settings[WEIR_SETTINGS_LENGTH])
+{
+    WeirWcsphTraits traits = wanted_traits((const WeirWcsphGpu *)common);
+    return weir_gpu_wcsph_settings(&common->wanted_parameters, &common->wanted_constants, &traits, settings);
+}
+
+static void take_change(WeirGpuSolver *common)
+{
+    WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
+    solver->traits = wanted_traits(solver);
+    WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &common->constants);
     weir_buffers_write(&common->buffers, WEIR_WCSPH_constants, &cells, sizeof cells);
-    return WEIR_OK;
 }
 
 // When the emitters' layers are due, and when the first of them is.
@@ -251,20 +247,20 @@ static WeirStatus start(WeirGpuSolver *common)
     weir_record(&recorder, WEIR_WCSPH_FIRST_STEP);
     weir_recorder_end(&recorder);
     weir_gpu_submit(common->gpu, encoder, "set_state");
-    return weir_gpu_solver_check(common);
+    return weir_gpu_solver_ready(common);
 }
 
 static WeirStatus set_state(WeirSolver *base, const WeirParticles *particles)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
-    WeirStatus status = weir_gpu_solver_check(&solver->common);
+    WeirStatus status = weir_gpu_solver_ready(&solver->common);
     if (status == WEIR_OK) status = write_state(solver, particles);
     return status == WEIR_OK ? weir_gpu_solver_begin(&solver->common) : status;
 }
 
 static const WeirSolverInterface wcsph_interface = {
     .destroy = destroy,
-    .configure = configure,
+    .configure = weir_gpu_solver_configure,
     .set_state = set_state,
     .step = step,
     .poll = weir_gpu_solver_poll,
@@ -280,6 +276,17 @@ static bool make_host(WeirWcsphGpu *solver)
     solver->host_group = calloc(count, sizeof *solver->host_group);
     solver->host_solids = calloc(solver->traits.solid_count + 1, sizeof *solver->host_solids);
     return solver->host && solver->host_group && solver->host_solids;
+}
+
+static void set_groups(WeirWcsphGpu *solver, uint32_t solid_particles)
+{
+    const WeirWcsphTraits *traits = &solver->traits;
+    uint32_t *groups = solver->common.passes.groups;
+    groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * solver->common.constants.particle_count);
+    groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
+    groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
+    groups[WEIR_ITEMS_BLOCKS] = traits->block_count;
+    groups[WEIR_ITEMS_FREE_BLOCKS] = traits->free_block_count;
 }
 
 static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
@@ -312,12 +319,9 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     WeirStatus status =
         weir_gpu_solver_make(common, method, sizes, scan_blocks, WEIR_WCSPH_PIECES, pieces, message);
     if (status != WEIR_OK) return status;
-    uint32_t solid_particles = setup->constants.particle_count - setup->constants.first_solid;
-    common->passes.groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
+    set_groups(solver, setup->constants.particle_count - setup->constants.first_solid);
     set_sort_groups(solver, scan_blocks);
-    common->passes.groups[WEIR_ITEMS_BLOCKS] = solver->traits.block_count;
-    common->passes.groups[WEIR_ITEMS_FREE_BLOCKS] = solver->traits.free_block_count;
-    status = configure(&common->base, &setup->parameters, &setup->constants);
+    status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) weir_gpu_wcsph_write_world(solver);
     if (status == WEIR_OK) status = set_state(&common->base, &setup->world->particles);
     if (status != WEIR_OK) *message = common->base.message;
@@ -336,6 +340,8 @@ WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, We
     common->base.interface = &wcsph_interface;
     common->gpu = gpu;
     common->start = start;
+    common->choose = choose;
+    common->take_change = take_change;
     common->health_buffer = WEIR_WCSPH_control;
     common->health_size = sizeof(WeirWcsphControl);
     common->take_health = weir_gpu_wcsph_take_health;

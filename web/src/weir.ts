@@ -471,6 +471,20 @@ export class Sim {
     this.#throwIf(await unlessPending(wait, () => this.#alive, 'the simulation was destroyed while it stepped'));
   }
 
+  // Resolves when all changes hold. Throws WeirError.
+  async settled(): Promise<void> {
+    const settle = (): Status => {
+      const status = this.poll();
+      return status === Status.ok && this.isChanging ? Status.pending : status;
+    };
+    this.#throwIf(await unlessPending(settle, () => this.#alive, 'the simulation was destroyed while it changed'));
+  }
+
+  // Whether a change waits for its shaders.
+  get isChanging(): boolean {
+    return this.#context.c.weir_sim_is_changing(this.pointer) !== 0;
+  }
+
   get stepCount(): number {
     return this.#context.c.weir_web_sim_step_count(this.pointer);
   }
@@ -529,7 +543,8 @@ export class Sim {
     return readParameter(this.#context, this.#context.c.weir_sim_scene(this.pointer), name);
   }
 
-  // Of live parameters only; a choice by its index.
+  // Of live parameters only; a choice by its index. On the GPU a change that needs other shaders holds when they are
+  // compiled; until then steps go on as before, see settled().
   setParameter(name: string, values: number | readonly number[]): void {
     const { memory, c } = this.#context;
     const list = typeof values === 'number' ? [values] : values;

@@ -127,6 +127,50 @@ test('steps, tool, parameters and reset as on the CPU', async () => {
   sim.destroy();
 });
 
+test('a change that needs other shaders comes when they are there; until then all goes on as before', async () => {
+  const shifting = (sim: Sim, value: number) => sim.setParameter('shifting', value);
+  const document = { ...dam, method: 'wcsph', parameters: { particle_spacing: spacing } };
+  const make = async (value: number): Promise<Sim> => {
+    const scene = weir.loadScene({ ...document, parameters: { ...document.parameters, shifting: value } });
+    const sim = weir.createSim(scene, { gpu });
+    scene.destroy();
+    await sim.ready();
+    return sim;
+  };
+  const hashAfter = async (sim: Sim, steps: number): Promise<string> => {
+    sim.step(steps);
+    return (await diagnose(sim)).stateHash;
+  };
+  const [plain, shifted, sim] = [await make(0), await make(2), await make(2)];
+  shifting(sim, 0);
+  assert.ok(sim.isChanging);
+  assert.equal(sim.parameter('shifting')[0], 0);
+  sim.step(30); // before any callback comes
+  assert.equal((await diagnose(sim)).stateHash, await hashAfter(shifted, 30));
+  await sim.settled();
+  assert.ok(!sim.isChanging);
+  sim.reset();
+  const without = await hashAfter(plain, 30);
+  assert.notEqual(without, (await diagnose(shifted)).stateHash, 'shifting changes nothing: the test shows too little');
+  assert.equal(await hashAfter(sim, 30), without);
+  // Back to what runs before its shaders are there; a change of the change; one whose shaders are there already.
+  sim.setParameter('viscosity', 0);
+  shifting(sim, 2);
+  sim.setParameter('viscosity', plain.parameter('viscosity')[0] as number);
+  shifting(sim, 0);
+  await sim.settled();
+  sim.reset();
+  assert.equal(await hashAfter(sim, 30), without);
+  shifting(sim, 2);
+  assert.ok(!sim.isChanging);
+  sim.reset();
+  assert.equal(await hashAfter(sim, 30), (await diagnose(shifted)).stateHash);
+  // Destroyed with shaders under way.
+  sim.setParameter('viscosity', 0);
+  assert.ok(sim.isChanging);
+  for (const one of [plain, shifted, sim]) one.destroy();
+});
+
 test('passes are timed by name', async (context) => {
   if (!gpu.nativeDevice?.features.has('timestamp-query')) return context.skip('no timestamps here');
   const sim = await start(gpu);
