@@ -176,8 +176,8 @@ static WeirWcsphTraits wanted_traits(const WeirWcsphGpu *solver)
 {
     const WeirGpuSolver *common = &solver->common;
     WeirWcsphTraits traits = solver->traits;
-    traits.emission_interval = weir_world_emission_interval(&solver->world, &common->wanted_parameters,
-                                                            &common->wanted_constants);
+    traits.emission_interval =
+        weir_world_emission_interval(&solver->world, &common->wanted_parameters, &common->wanted_constants);
     if (traits.sort_interval > traits.emission_interval) traits.sort_interval = traits.emission_interval;
     return traits;
 }
