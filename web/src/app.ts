@@ -8,7 +8,9 @@ import { Panel, type PanelHost } from './panel.ts';
 import { Plot } from './plot.ts';
 import { ProbePlots } from './probe_plots.ts';
 import { Pointer, type ToolSettings } from './pointer.ts';
+import { KnownParticles, pageStore, RunRate } from './real_time.ts';
 import { fetchScene, parseScene, withParameters, type ParameterValue, type SceneDocument, type SceneEntry } from './scene_document.ts';
+import { GpuEngine } from './engine_gpu.ts';
 import { SceneStore } from './scene_store.ts';
 import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
 import { StatusLine } from './status.ts';
@@ -51,7 +53,9 @@ export class App implements PanelHost {
   readonly #module: WebAssembly.Module;
   readonly #legend = new Legend(element('footer'));
   readonly #stage = element('stage');
-  #asked: boolean; // the user has asked for a number of particles
+  #asked: boolean; // the user has asked for this number of particles
+  readonly #rate = new RunRate();
+  readonly #known = new KnownParticles(pageStore());
   #panel: Panel | null = null;
   #panelShown = true;
   #canvas: HTMLCanvasElement | null = null;
@@ -201,31 +205,63 @@ export class App implements PanelHost {
 
   // ---- Scenes ----
 
-  // A scene of wcsph made for a graphics card gets fewer particles where the C solver moves it. In words; '' if not.
+  // A scene of wcsph made for a fast graphics card gets fewer particles where a slower one or the C solver moves it. In
+  // words; '' if not.
   #suit(): string {
-    const { scene, derived } = this.store;
+    const { scene } = this.store;
+    if (scene.method !== 'wcsph') return '';
     const most = cpuParticles[scene.dimension === 3 ? 3 : 2];
-    if (this.engine?.kind === 'gpu' || scene.method !== 'wcsph' || derived.particles <= 1.2 * most) return '';
+    if (this.engine?.kind !== 'gpu') return this.#thin(most);
+    const known = this.#known.recall(this.engine.device, this.sceneName);
+    return known > 0 && this.#isCard() ? this.#thin(Math.max(known, most)) : '';
+  }
+
+  #thin(most: number): string {
+    const usual = this.store.derived.particles;
+    if (usual <= 1.2 * most) return '';
     try {
       this.store.replace(this.store.withParticles(most));
     } catch {
       return ''; // too coarse for what is in the scene
     }
-    const [fewer, usual] = [this.store.derived.particles, derived.particles].map(formatCount);
-    return `${fewer} particles instead of ${usual}`;
+    return `${formatCount(this.store.derived.particles)} particles instead of ${formatCount(usual)}`;
+  }
+
+  #isCard(): boolean {
+    return this.engine instanceof GpuEngine && !this.engine.gpu.isSoftware;
+  }
+
+  // What a graphics card moves in slow motion starts again with as many particles as it moves in real time.
+  #keepRealTime(now: number, engine: Engine): void {
+    const { scene, derived } = this.store;
+    if (this.paused || document.hidden) this.#rate.restart(now);
+    const factor = this.#rate.update(now, engine.stats.time);
+    if (factor === null || this.#asked || scene.method !== 'wcsph' || !this.#isCard()) return;
+    const aimed = factor / (scene.parameter('time_scale')[0] ?? 1);
+    const fewer = this.#known.note(engine.device, this.sceneName, derived.particles, aimed, scene.dimension);
+    if (fewer === 0) return;
+    const words = this.#thin(Math.max(fewer, cpuParticles[scene.dimension === 3 ? 3 : 2]));
+    if (!words) return;
+    this.notes.toast('info', `${words}: this graphics card moved those at ${formatNumber(aimed, 2)} of real time. The slider asks for more.`);
+    void this.#run(this.store.document);
   }
 
   // Starts a document; the last good one goes on if it is refused.
   #run(next: SceneDocument, name = this.sceneName, isNew = false): Promise<void> {
     this.#starting = this.#starting.then(async () => {
+      const before = this.sceneName;
       try {
         this.store.replace(next);
-        if (isNew) this.#suit();
-        await this.engine?.start(this.store.document, null);
         this.sceneName = name;
+        if (isNew) {
+          this.#asked = false;
+          this.#suit();
+        }
+        await this.engine?.start(this.store.document, null);
         this.#started();
       } catch (error) {
         this.notes.toast('error', (error as Error).message);
+        this.sceneName = before;
         this.store.replace(this.#lastGood);
         this.#panel?.refresh();
       }
@@ -259,6 +295,7 @@ export class App implements PanelHost {
     this.plot.clear();
     this.#showScene();
     if (this.engine) this.status.restart(performance.now(), this.engine);
+    this.#rate.restart(performance.now());
     this.#panel?.refresh();
   }
 
@@ -328,7 +365,10 @@ export class App implements PanelHost {
       if (!info) throw new Error(`${name}: no such parameter`);
       this.store.set(name, value);
       if (info.live) this.engine?.setParameter(name, this.store.numbers(info), this.store.document);
-      else this.#restartSoon();
+      else {
+        this.#asked = true; // of how fine it is, perhaps
+        this.#restartSoon();
+      }
       if (this.#restartTimer === 0) this.#lastGood = this.store.document;
     } catch (error) {
       this.notes.toast('error', (error as Error).message);
@@ -342,6 +382,7 @@ export class App implements PanelHost {
   setParticles(count: number): boolean {
     try {
       this.store.replace(this.store.withParticles(count));
+      this.#asked = true;
       this.#restartSoon();
     } catch (error) {
       this.notes.toast('error', (error as Error).message);
@@ -491,6 +532,7 @@ export class App implements PanelHost {
     this.probePlots.update(engine.stats.probes, now);
     this.#advise(engine.stats.warning);
     this.status.update(now, engine, this.paused);
+    this.#keepRealTime(now, engine);
     if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();
   };
 

@@ -52,6 +52,29 @@ for (const kind of browsers) {
       });
     }
 
+    // The software adapter passes for a slow card here.
+    test('a card that moves a scene in slow motion gets fewer particles, at once the next time', async () => {
+      const tab = await open('backend=gpu&scene=water&particles=500');
+      await tab.engine('gpu');
+      await tab.evaluate(() => {
+        Object.defineProperty(window.weir.engine.gpu, 'isSoftware', { value: false });
+        void window.weir.loadScene('dam_2d');
+      });
+      await tab.within(120, 'fewer particles', () => window.weir.sceneName === 'dam_2d' && window.weir.particles() < 6000);
+      await tab.until('words', () => /particles instead of 2[45],\d\d\d: this graphics card/.test(document.getElementById('notes').innerText));
+      await tab.within(120, 'a run', () => window.weir.engine.stats.particles < 10_000 && window.weir.engine.stats.steps > 10);
+      await tab.evaluate(() => window.weir.loadScene('water'));
+      await tab.evaluate(() => window.weir.loadScene('dam_2d'));
+      assert.ok(await tab.evaluate(() => window.weir.particles()) < 6000);
+      // Who asks for more gets it, and keeps it.
+      await tab.evaluate(() => window.weir.setParticles(9000));
+      await tab.within(120, 'more particles', () => window.weir.engine.stats.particles > 9000);
+      await tab.evaluate(() => new Promise((resolve) => setTimeout(resolve, 5000)));
+      assert.ok(await tab.evaluate(() => window.weir.particles()) > 8000);
+      await tab.evaluate(() => localStorage.clear());
+      await tab.close();
+    });
+
     test('shows its first frame soon', async (context) => {
       const tab = await open('backend=cpu');
       await tab.frames(1);

@@ -1,0 +1,91 @@
+// How many particles of a scene a graphics card moves in real time: measured in the first seconds of a run, kept for the next
+// visit. So a page shows slow motion for a moment once, and not at all when it comes back.
+
+const settleMs = 1200; // of a run, in which the pace finds its steps
+const windowMs = 2000;
+const slowMotion = 0.7; // of real time; below, fewer particles are better
+const aim = 0.95;
+const growth = 1.15; // what held real time is given so much more at the next visit
+
+// The number of particles that runs in real time if `particles` run at `factor` of it: the time of a step goes with their
+// number, its length with their distance. Two digits.
+export function particlesInRealTime(particles: number, factor: number, dimension: number): number {
+  const wanted = particles * (factor / aim) ** (dimension / (dimension + 1));
+  const unit = 10 ** Math.max(Math.floor(Math.log10(Math.max(wanted, 1))) - 1, 0);
+  return Math.floor(wanted / unit) * unit;
+}
+
+export const isSlowMotion = (factor: number): boolean => factor < slowMotion;
+
+// Measures the real-time factor of a run once, when the run has settled.
+export class RunRate {
+  #began = 0;
+  #from: { now: number; time: number } | null = null;
+  #done = false;
+
+  // A run starts, or what was measured of it so far does not count.
+  restart(now: number): void {
+    this.#began = now;
+    this.#from = null;
+    this.#done = false;
+  }
+
+  // Once per frame, with the simulated time; null but for the one time when the factor is known.
+  update(now: number, time: number): number | null {
+    if (this.#done || now - this.#began < settleMs) return null;
+    if (!this.#from || time < this.#from.time) this.#from = { now, time };
+    const wall = now - this.#from.now;
+    if (wall < windowMs) return null;
+    this.#done = true;
+    return (1000 * (time - this.#from.time)) / wall;
+  }
+}
+
+type Store = Pick<Storage, 'getItem' | 'setItem'>;
+
+// Numbers of particles by card and scene.
+export class KnownParticles {
+  readonly #store: Store | null;
+
+  constructor(store: Store | null) {
+    this.#store = store;
+  }
+
+  // 0: nothing is known.
+  recall(card: string, scene: string): number {
+    try {
+      const known = Number(this.#store?.getItem(key(card, scene)));
+      return Number.isFinite(known) && known >= 1 ? known : 0;
+    } catch {
+      return 0;
+    }
+  }
+
+  // That many ran at `factor` of real time. Gives the number to run instead, 0 for none.
+  note(card: string, scene: string, particles: number, factor: number, dimension: number): number {
+    const fewer = isSlowMotion(factor) ? Math.max(particlesInRealTime(particles, factor, dimension), 1) : 0;
+    const known = this.recall(card, scene);
+    if (fewer > 0) this.#keep(card, scene, fewer);
+    else if (known > 0 && factor > aim) this.#keep(card, scene, Math.round(growth * Math.max(known, particles)));
+    return fewer;
+  }
+
+  #keep(card: string, scene: string, particles: number): void {
+    try {
+      this.#store?.setItem(key(card, scene), String(particles));
+    } catch {
+      // A full or forbidden store: measured anew at the next visit.
+    }
+  }
+}
+
+const key = (card: string, scene: string): string => `weir.particles ${scene} ${card}`;
+
+// null where a page may keep nothing.
+export function pageStore(): Store | null {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
+}
