@@ -6,12 +6,13 @@
 
 #if WEIR_WITH_GPU
 
-static WeirStatus open_gpu(WeirCliBackend *backend, char *message, size_t message_size)
+static WeirStatus open_gpu(WeirCliBackend *backend, double list_memory, char *message, size_t message_size)
 {
     // Vulkan drivers look for a Wayland display and print errors where this is not set, as on a server.
     setenv("XDG_RUNTIME_DIR", "/tmp", 0);
     // Weir's passes clamp every index themselves, so the driver need not check them again.
-    backend->gpu = weir_gpu_create(&(WeirGpuOptions){.trusted_shaders = true});
+    backend->gpu = weir_gpu_create(
+        &(WeirGpuOptions){.trusted_shaders = true, .list_memory = (uint64_t)(list_memory * 1073741824.0)});
     if (!backend->gpu) {
         snprintf(message, message_size, "memory ran out");
         return WEIR_ERROR_MEMORY;
@@ -39,9 +40,10 @@ static void close_gpu(WeirCliBackend *backend)
 
 #else
 
-static WeirStatus open_gpu(WeirCliBackend *backend, char *message, size_t message_size)
+static WeirStatus open_gpu(WeirCliBackend *backend, double list_memory, char *message, size_t message_size)
 {
     (void)backend;
+    (void)list_memory;
     snprintf(message, message_size, "this build has no GPU backend (built with WEIR_GPU=OFF)");
     return WEIR_ERROR_DEVICE;
 }
@@ -59,12 +61,12 @@ static void close_gpu(WeirCliBackend *backend)
 
 #endif
 
-WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char *message,
+WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, double list_memory, char *message,
                                  size_t message_size)
 {
     *backend = (WeirCliBackend){.backend = weir_cpu_backend()};
     if (strcmp(name, "cpu") == 0) return WEIR_OK;
-    WeirStatus status = open_gpu(backend, message, message_size);
+    WeirStatus status = open_gpu(backend, list_memory, message, message_size);
     if (strcmp(name, "gpu") == 0) return status;
     if (!status && is_software(backend)) {
         weir_cli_backend_close(backend);
@@ -73,10 +75,11 @@ WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, char
     return WEIR_OK;
 }
 
-bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, const char *command)
+bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, double list_memory,
+                             const char *command)
 {
     char message[512];
-    if (!weir_cli_backend_open(backend, name, message, sizeof message)) return true;
+    if (!weir_cli_backend_open(backend, name, list_memory, message, sizeof message)) return true;
     fprintf(stderr, "weir %s: --backend %s: %s\n", command, name, message);
     return false;
 }

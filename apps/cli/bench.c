@@ -15,7 +15,7 @@ enum { MAX_ITEMS = 32, MAX_RUNS = 66, SUITE_REPETITIONS = 5 };
 typedef struct BenchOptions {
     const char *counts, *backends, *search, *threads, *bench_case, *scene, *suite, *compare;
     WeirCount repetitions;
-    double seconds, scale;
+    double seconds, scale, list_memory;
     bool json, csv, passes;
 } BenchOptions;
 
@@ -269,8 +269,8 @@ static bool open_gpu(Bench *bench)
 {
     char message[512];
     if (!bench->plan.gpu) return true;
-    WeirStatus status =
-        weir_cli_backend_open(&bench->gpu, bench->plan.gpu_must ? "gpu" : "auto", message, sizeof message);
+    WeirStatus status = weir_cli_backend_open(&bench->gpu, bench->plan.gpu_must ? "gpu" : "auto",
+                                              bench->options.list_memory, message, sizeof message);
     if (status) fprintf(stderr, "weir bench: --backends gpu: %s\n", message);
     if (!status && !bench->gpu.gpu) fprintf(stderr, "weir bench: no GPU here, or only a software one\n");
     return !status;
@@ -329,6 +329,8 @@ static const WeirOption bench_options[] = {
      "both; all but the article's table: grid"},
     {"--threads", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(threads), 0, 0,
      "on the CPU; 1 and one per core; suites: one per core"},
+    {"--list-memory", WEIR_OPTION_NUMBER, "GIB", NULL, FIELD(list_memory), 1e-3, 1e6,
+     "that neighbour lists may take on the GPU (without them: slower); 8"},
     {"--case", WEIR_OPTION_CHOICE, NULL, WEIR_BENCH_CASES, FIELD(bench_case), 0, 0,
      "what to measure, see docs/performance.md; article"},
     {"--scene", WEIR_OPTION_TEXT, "FILE", NULL, FIELD(scene), 0, 0, "measure a scene file instead"},

@@ -15,7 +15,8 @@ enum {
     MAX_BATCH = 1024,
     STIRRED_BATCH = 256, // of a fluid that calms down: so many of these and no more, on a fast machine too
     STIRRED_REPETITIONS = 7,
-    SETTLING_STEPS = 200, // of a fluid whose batches follow one another, before the first
+    LEAST_STIRRED_BATCH = 32, // on a GPU, which makes lists every few steps: some in every batch
+    SETTLING_STEPS = 200,     // of a fluid whose batches follow one another, before the first
 };
 
 typedef struct Measurement {
@@ -49,14 +50,20 @@ static double time_steps(const Measurement *m, uint32_t steps)
     return weir_wall_time() - start;
 }
 
+static bool makes_lists(const Measurement *m)
+{
+    return m->stirred && weir_sim_threads(m->sim) == 0;
+}
+
 // Steps of a batch: doubled until it takes a tenth of the time to spend, which warms up as well. Negative batch time:
 // something failed.
 static uint32_t warm_up(const Measurement *m, double *batch)
 {
     double wish = 0.1 * m->effort->seconds, end = weir_wall_time() + 10.0 * m->effort->seconds;
     uint32_t most = m->anew ? ANEW_BATCH : m->stirred ? STIRRED_BATCH : MAX_BATCH, steps = 1;
+    uint32_t least = makes_lists(m) ? LEAST_STIRRED_BATCH : 1;
     *batch = time_steps(m, steps);
-    while (*batch >= 0.0 && *batch < wish && steps < most) {
+    while (*batch >= 0.0 && (*batch < wish || steps < least) && steps < most) {
         steps = 2 * steps < most ? 2 * steps : most;
         *batch = time_steps(m, steps);
     }
@@ -69,7 +76,8 @@ static uint32_t warm_up(const Measurement *m, double *batch)
 static bool measure_steps(Measurement *m)
 {
     double batch, spent = 0.0, seconds = m->effort->seconds;
-    uint32_t steps = warm_up(m, &batch), least = batch > seconds ? 1 : m->effort->repetitions;
+    uint32_t steps = warm_up(m, &batch);
+    uint32_t least = batch > seconds && !makes_lists(m) ? 1 : m->effort->repetitions;
     uint32_t most = m->stirred ? STIRRED_REPETITIONS : MAX_REPETITIONS;
     while (batch >= 0.0 && m->count < most && (m->count < least || spent < seconds)) {
         batch = time_steps(m, steps);

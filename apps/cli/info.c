@@ -49,7 +49,7 @@ static json_t *gpu_json(void)
 {
     WeirCliBackend backend;
     char message[512];
-    if (weir_cli_backend_open(&backend, "gpu", message, sizeof message)) {
+    if (weir_cli_backend_open(&backend, "gpu", 0.0, message, sizeof message)) {
         return json_pack("{s:n, s:s}", "device", "error", message);
     }
 #if WEIR_WITH_GPU

@@ -14,7 +14,6 @@
 // which after a barrier finds all_sums(). A lone one sums where it asks for all_sums(): brought there from before, the
 // sums cost large scenes up to a tenth of pass forces (H100).
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(BINDING_neighbor_list) var<storage, read> neighbor_list: array<vec2u>;
 
 // By the workgroup's threads.
 var<workgroup> shares: array<Sums, select(1u, WORKGROUP_SIZE, LANES > 1u)>;
@@ -47,7 +46,7 @@ fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
     let moved = way_since_sort();
     if LISTS && moved <= control.allowance {
         let at = 2u * part_index(i, 0u);
-        let header = vec4u(neighbor_list[at], neighbor_list[at + 1u]);
+        let header = vec4u(list_chunk(at), list_chunk(at + 1u));
         if header.x != NO_LIST {
             return sum_listed(i, place, own, lane, start, header);
         }
@@ -74,11 +73,11 @@ fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec
     let chunks = (header.x + 3u) / 4u;
     let bases = list_bases(start, i, header);
     var at = chunk_index(i, lane);
-    var next = neighbor_list[at];
+    var next = list_chunk(at);
     for (var c = lane; c < chunks; c += LANES) {
         let words = next;
         at += chunk_stride(c);
-        next = neighbor_list[at];
+        next = list_chunk(at);
         let slots = vec4u(listed(bases, words.x & 0xffffu), listed(bases, words.x >> 16u),
                           listed(bases, words.y & 0xffffu), listed(bases, words.y >> 16u));
         add_four(&sums, place, own, slots);

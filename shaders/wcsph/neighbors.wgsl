@@ -5,7 +5,6 @@
 // out: neighbor_list, solid_particle (slots), id; cell_link's heads are emptied for the next count
 @group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
-@group(0) @binding(BINDING_neighbor_list) var<storage, read_write> neighbor_list: array<vec4u>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read_write> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
@@ -83,7 +82,7 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         }
         store_part(i, count / 8u, part);
     }
-    neighbor_list[part_index(i, 0u)] = vec4u(select(NO_LIST, listed_count, fits), header.yzw);
+    set_list_part(part_index(i, 0u), vec4u(select(NO_LIST, listed_count, fits), header.yzw));
 }
 
 // A part with an entry more; its first one falls out.
@@ -93,7 +92,7 @@ fn pushed(part: vec4u, entry: u32) -> vec4u {
 
 fn store_part(i: u32, part: u32, entries: vec4u) {
     if part <= LIST_PARTS {
-        neighbor_list[part_index(i, part)] = entries;
+        set_list_part(part_index(i, part), entries);
     }
 }
 

@@ -20,7 +20,7 @@ uint64_t weir_buffers_bytes(const WeirBuffers *buffers, uint32_t name)
 uint64_t weir_buffers_part_bytes(const WeirBuffers *buffers, uint32_t name)
 {
     const WeirBufferSize *size = &buffers->size[name];
-    return size->bytes * (size->copies / buffers->parts[name]) + size->slack;
+    return size->bytes * (size->shares / buffers->parts[name]) + size->slack;
 }
 
 WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
@@ -29,10 +29,10 @@ WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
     uint64_t most = weir_buffers_most_bytes(buffers->gpu);
     for (uint32_t name = 0; name < buffers->count; ++name) {
         buffers->size[name] = sizes[name];
-        if (buffers->size[name].copies == 0) buffers->size[name].copies = 1;
+        if (buffers->size[name].shares == 0) buffers->size[name].shares = 1;
         buffers->parts[name] = 1;
         if (weir_buffers_part_bytes(buffers, name) > most && buffers->info[name].element)
-            buffers->parts[name] = buffers->size[name].copies;
+            buffers->parts[name] = buffers->size[name].shares;
         uint64_t size = weir_buffers_part_bytes(buffers, name);
         if (size <= most) continue;
         return weir_fail(

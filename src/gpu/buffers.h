@@ -4,20 +4,21 @@
 
 #include "gpu/report.h"
 
-enum { WEIR_MAX_BUFFERS = 32, WEIR_MAX_COPIES = 3 };
+enum { WEIR_MAX_BUFFERS = 32, WEIR_MAX_PARTS = 16 };
 
 typedef struct WeirBufferInfo {
     const char *name, *label;
     bool uniform;        // bound to every pass as a uniform buffer, otherwise a storage buffer
     bool indirect;       // sizes of dispatches too
-    const char *element; // WGSL type of its elements, if its copies may lie apart (copies.h); NULL: never
+    const char *element; // WGSL type of its elements, if it may lie in several parts (parts.h); NULL: never
+    const char *written; // the same in passes that write it; NULL: element
 } WeirBufferInfo;
 
-// A buffer may hold several copies of the particles, one after the other.
+// A buffer may hold several shares, one after the other: copies of the particles, lists of some of them.
 typedef struct WeirBufferSize {
-    uint64_t bytes;  // of one copy
-    uint32_t copies; // 0 as 1
-    uint32_t slack;  // bytes behind the last copy that shaders may load, but not use
+    uint64_t bytes;  // of one share
+    uint32_t shares; // 0 as 1
+    uint32_t slack;  // bytes behind the last share that shaders may load, but not use
 } WeirBufferSize;
 
 // Cells of one workgroup of the scan: vectors of 4 cells for each thread.
@@ -28,10 +29,10 @@ typedef struct WeirBuffers {
     const WeirBufferInfo *info;
     uint32_t count;
     WeirBufferSize size[WEIR_MAX_BUFFERS];
-    // How many buffers of the device hold it: one, or, where the device's bindings are too small for all copies together,
-    // one for each (copies.h).
+    // How many buffers of the device hold it: one, or, where the device's bindings are too small for all shares together,
+    // one for each (parts.h).
     uint32_t parts[WEIR_MAX_BUFFERS];
-    WGPUBuffer handle[WEIR_MAX_BUFFERS][WEIR_MAX_COPIES]; // of each part
+    WGPUBuffer handle[WEIR_MAX_BUFFERS][WEIR_MAX_PARTS];
 } WeirBuffers;
 
 // Entries of the arrays per cell: whole blocks of the scan, and at least one more than `cells`, because cell_start
@@ -45,8 +46,8 @@ WeirStatus weir_buffers_plan(WeirBuffers *buffers, const WeirBufferSize *sizes,
 // Makes all of them, zeroed; faults of the device go to `report`.
 void weir_buffers_create(WeirBuffers *buffers, WeirReport *report);
 void weir_buffers_destroy(WeirBuffers *buffers);
-// Bytes of all copies, and of one part.
+// Bytes of all shares, and of one part.
 uint64_t weir_buffers_bytes(const WeirBuffers *buffers, uint32_t name);
 uint64_t weir_buffers_part_bytes(const WeirBuffers *buffers, uint32_t name);
-// Writes to the begin of the first copy.
+// Writes to the begin of the first share.
 void weir_buffers_write(WeirBuffers *buffers, uint32_t name, const void *data, size_t size);

@@ -12,6 +12,9 @@ uint32_t weir_pass_storage_buffers(const WeirPassInfo *pass)
     return count;
 }
 
+// Of one pass: all buffers once, and the further parts of three kinds of copies and of the lists.
+enum { WEIR_MAX_BINDINGS = WEIR_MAX_BUFFERS + 3 * 2 + WEIR_MAX_PARTS };
+
 // Storage buffers that a pass binds, with all parts.
 static uint32_t bound_buffers(const WeirPasses *passes, uint32_t pass)
 {
@@ -92,8 +95,8 @@ static WGPUBufferBindingType binding_type(const WeirPasses *passes, uint32_t pas
 
 static void make_bind_group(WeirPasses *passes, uint32_t pass)
 {
-    WGPUBindGroupLayoutEntry layout[WEIR_MAX_BUFFERS * WEIR_MAX_COPIES] = {0};
-    WGPUBindGroupEntry entries[WEIR_MAX_BUFFERS * WEIR_MAX_COPIES] = {0};
+    WGPUBindGroupLayoutEntry layout[WEIR_MAX_BINDINGS] = {0};
+    WGPUBindGroupEntry entries[WEIR_MAX_BINDINGS] = {0};
     const WeirBuffers *buffers = passes->buffers;
     size_t count = 0;
     for (uint32_t name = 0; name < passes->method->buffer_count; ++name) {
@@ -176,14 +179,14 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
 {
     const WeirMethodInfo *method = passes->method;
     const WeirPassInfo *info = &method->passes[pass];
-    size_t capacity = 2 * WEIR_SETTINGS_LENGTH + weir_copies_declare(passes->buffers, method->functions,
-                                                                     info->reads, info->writes, NULL, 0);
+    size_t capacity = 2 * WEIR_SETTINGS_LENGTH + weir_parts_declare(passes->buffers, method->functions,
+                                                                    info->reads, info->writes, NULL, 0);
     char *settings = malloc(capacity);
     if (!settings) return false;
     size_t length =
         (size_t)snprintf(settings, capacity, "%s%s", variant->settings, info->settings ? info->settings : "");
-    weir_copies_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
-                        capacity - length);
+    weir_parts_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
+                       capacity - length);
     char *source =
         weir_pass_source(method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS], info->parts, info->source);
     free(settings);

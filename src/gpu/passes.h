@@ -2,7 +2,7 @@
 // passes and buffers in two tables (mueller_passes.c, wcsph_passes.c).
 #pragma once
 
-#include "gpu/copies.h"
+#include "gpu/parts.h"
 
 enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 2048 };
 
@@ -40,7 +40,7 @@ typedef struct WeirMethodInfo {
     const WeirPassInfo *passes;
     uint32_t buffer_count, pass_count;
     const char *const *parts;          // WGSL before each pass's own, ended by NULL
-    const WeirCopyFunction *functions; // of copies of the particles; NULL for none
+    const WeirPartFunction *functions; // for buffers in parts; NULL for none
 } WeirMethodInfo;
 
 // Pipelines for one choice of settings.

@@ -17,6 +17,9 @@
 // less that the device starts none then: measured on an H100, 10 us of a dispatch become 4.
 enum { MOST_SORTING = 8192, LEAST_INDIRECT = 1024 };
 
+// So that all of a simulation in 3D with about 37 neighbours takes 16 GiB.
+static const uint64_t usual_list_bytes = (uint64_t)8 << 30;
+
 // ---- The step ----
 
 // A pass of a sort.
@@ -301,14 +304,15 @@ static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
     solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
 }
 
-static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirMessage *message)
+static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint64_t most_list_bytes,
+                       WeirMessage *message)
 {
     WeirGpuSolver *common = &solver->common;
     common->constants = setup->constants;
     if (!weir_gpu_wcsph_copy_world(solver, setup) || !make_host(solver))
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %u particles",
                          setup->constants.particle_count);
-    weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, common->gpu);
+    weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, common->gpu, most_list_bytes);
     WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &setup->constants);
     WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL] = {{0}};
     weir_gpu_wcsph_sizes(&cells, &solver->world, &solver->traits, sizes);
@@ -328,8 +332,8 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, WeirM
     return status;
 }
 
-WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
-                                  WeirMessage *message)
+static WeirSolver *create(WeirGpu *gpu, const WeirSolverSetup *setup, uint64_t most_list_bytes,
+                          WeirStatus *status, WeirMessage *message)
 {
     WeirWcsphGpu *solver = calloc(1, sizeof *solver);
     if (!solver) {
@@ -348,10 +352,19 @@ WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, We
     common->copy_state = weir_gpu_wcsph_copy_state;
     common->take_state = weir_gpu_wcsph_take_state;
     snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
-    *status = make(solver, setup, message);
+    *status = make(solver, setup, most_list_bytes, message);
     if (*status == WEIR_OK) return &common->base;
     destroy(&common->base);
     return NULL;
+}
+
+WeirSolver *weir_wcsph_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, WeirStatus *status,
+                                  WeirMessage *message)
+{
+    uint64_t most = gpu->options.list_memory;
+    WeirSolver *solver = create(gpu, setup, most > 0 ? most : usual_list_bytes, status, message);
+    if (!solver && *status == WEIR_ERROR_MEMORY) solver = create(gpu, setup, 0, status, message);
+    return solver;
 }
 
 bool weir_wcsph_gpu_particles(const WeirSolver *base, WeirGpuParticles *particles)

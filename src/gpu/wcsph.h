@@ -19,19 +19,19 @@
 
 #include <assert.h>
 
-// WEIR_BUFFER(name): storage buffers. WEIR_COPIES(name, element): those with several copies of the particles (buffers.h).
+// WEIR_BUFFER(name): storage buffers. WEIR_PARTS(name, element, written): those that may lie in several parts (buffers.h).
 // WEIR_SIZES(name): sizes of dispatches. Bytes of each: weir_gpu_wcsph_sizes().
 #define WEIR_WCSPH_BUFFERS                                                                                   \
-    WEIR_COPIES(coordinate, "vec4i")                                                                         \
-    WEIR_COPIES(motion, "vec4f")                                                                             \
+    WEIR_PARTS(coordinate, "vec4i", NULL)                                                                    \
+    WEIR_PARTS(motion, "vec4f", NULL)                                                                        \
     WEIR_BUFFER(id)                                                                                          \
     WEIR_BUFFER(cell_count)                                                                                  \
     WEIR_BUFFER(cell_link)                                                                                   \
     WEIR_BUFFER(block_sum)                                                                                   \
     WEIR_BUFFER(cell_start)                                                                                  \
-    WEIR_BUFFER(neighbor_list)                                                                               \
+    WEIR_PARTS(neighbor_list, "vec2u", "vec4u")                                                              \
     WEIR_BUFFER(sorted_id)                                                                                   \
-    WEIR_COPIES(kicked, "vec4f")                                                                             \
+    WEIR_PARTS(kicked, "vec4f", NULL)                                                                        \
     WEIR_BUFFER(density_rate)                                                                                \
     WEIR_BUFFER(solid_state)                                                                                 \
     WEIR_BUFFER(solid_particle)                                                                              \
@@ -50,13 +50,13 @@ typedef enum WeirWcsphBuffer {
     WEIR_WCSPH_solid_table,
     WEIR_WCSPH_emitters,
     WEIR_WCSPH_drains,
-#define WEIR_COPIES(name, element) WEIR_WCSPH_##name,
-#define WEIR_SIZES(name)           WEIR_WCSPH_##name,
-#define WEIR_BUFFER(name)          WEIR_WCSPH_##name,
+#define WEIR_PARTS(name, element, written) WEIR_WCSPH_##name,
+#define WEIR_SIZES(name)                   WEIR_WCSPH_##name,
+#define WEIR_BUFFER(name)                  WEIR_WCSPH_##name,
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
 #undef WEIR_SIZES
-#undef WEIR_COPIES
+#undef WEIR_PARTS
         WEIR_WCSPH_BUFFER_TOTAL
 } WeirWcsphBuffer;
 
@@ -98,11 +98,13 @@ typedef struct WeirWcsphTraits {
     float fastest_surface; // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
     uint32_t sort_groups[WEIR_SORT_SIZES][2]; // workgroups of the dispatches of a sort
-    uint32_t sort_interval;            // steps; particles may be sorted before those whose number it divides
-    uint32_t emission_interval;        // a multiple of it: weir_world_emission_interval()
-    uint32_t lanes;                    // threads that share a particle's neighbours: 1, 2, 4, 8
-    uint32_t list_parts;               // of 8 neighbours, per particle; 0: no lists
-    uint32_t row_height, layer_height; // of cells, quanta
+    uint32_t sort_interval;     // steps; particles may be sorted before those whose number it divides
+    uint32_t emission_interval; // a multiple of it: weir_world_emission_interval()
+    uint32_t lanes;             // threads that share a particle's neighbours: 1, 2, 4, 8
+    uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
+    uint32_t list_shares,
+        list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many
+    uint32_t row_height, layer_height;        // of cells, quanta
     uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
 } WeirWcsphTraits;
 
@@ -140,9 +142,9 @@ static_assert(sizeof(WeirMotionRow) == 64, "four vectors in the shaders");
 // wcsph_neighbors.c
 // How neighbours are found, from what else is known of the world and of the device.
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
-                         const WeirConstants *constants, const WeirGpu *gpu);
-// Of buffer neighbor_list; `parts` as list_parts.
-uint64_t weir_gpu_wcsph_list_bytes(uint32_t particle_count, uint32_t parts);
+                         const WeirConstants *constants, const WeirGpu *gpu, uint64_t most_list_bytes);
+// Of buffer neighbor_list.
+WeirBufferSize weir_gpu_wcsph_list_size(const WeirWcsphTraits *traits);
 // The constants with the cells of this plan.
 WeirConstants weir_gpu_wcsph_cells(const WeirWcsphTraits *traits, const WeirConstants *constants);
 

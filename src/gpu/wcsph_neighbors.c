@@ -17,6 +17,8 @@ static const double most_pairs_of_lists_2d = 1e7, short_list_2d = 25.0;
 // Sorting takes five dispatches, with emitters seven, even if there is nothing to do: below so many pairs it is offered
 // as seldom as layers of emitters allow.
 static const double pairs_for_every_step = 2e7;
+// Particles whose lists lie side by side, `PART_STRIDE` in common/lists.wgsl.
+enum { LIST_BLOCK = 128 };
 // Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
 static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
 static const uint32_t most_lanes = 8;
@@ -37,17 +39,43 @@ static bool is_short(const WeirConstants *constants, double reach)
     return false;
 }
 
-uint64_t weir_gpu_wcsph_list_bytes(uint32_t particle_count, uint32_t parts)
+// A reader looks up to eight chunks, four parts, beyond a list's end.
+enum { LIST_SLACK = 4 * 16 * LIST_BLOCK };
+
+WeirBufferSize weir_gpu_wcsph_list_size(const WeirWcsphTraits *traits)
 {
-    if (parts == 0) return 16; // nobody looks
-    // Those of 128 particles side by side. A reader looks up to eight chunks, four parts, beyond a list's end.
-    uint64_t blocks = ((uint64_t)particle_count + 127) / 128;
-    return 16 * 128 * (blocks * (parts + 1) + 4);
+    if (traits->list_parts == 0) return (WeirBufferSize){.bytes = 16}; // nobody looks
+    uint64_t block = 16 * LIST_BLOCK * ((uint64_t)traits->list_parts + 1);
+    return (WeirBufferSize){block * traits->list_blocks, traits->list_shares, LIST_SLACK};
+}
+
+// Storage buffers of pass forces besides the lists.
+static uint32_t other_buffers(const WeirConstants *constants, uint64_t most_bytes)
+{
+    bool apart = 3 * 16 * (uint64_t)constants->particle_count + 7 * 16 > most_bytes;
+    return apart ? 7 + 2 * 3 : 7; // coordinate, motion, kicked
+}
+
+// In as many shares as the device's bindings ask for. False if these are too many, or the lists too large.
+static bool share_lists(WeirWcsphTraits *traits, const WeirConstants *constants, const WeirGpu *gpu,
+                        uint64_t most_list_bytes)
+{
+    uint64_t most_bytes = weir_buffers_most_bytes(gpu), buffers = gpu->limits.maxStorageBuffersPerShaderStage;
+    uint64_t blocks = ((uint64_t)constants->particle_count + LIST_BLOCK - 1) / LIST_BLOCK;
+    uint64_t block = 16 * LIST_BLOCK * ((uint64_t)traits->list_parts + 1),
+             bytes = block * blocks + LIST_SLACK;
+    if (most_bytes < block + LIST_SLACK || bytes > most_list_bytes || bytes / 8 > UINT32_MAX) return false;
+    uint64_t most_blocks = (most_bytes - LIST_SLACK) / block,
+             shares = (blocks + most_blocks - 1) / most_blocks;
+    traits->list_shares = (uint32_t)shares;
+    traits->list_blocks = (uint32_t)((blocks + shares - 1) / shares);
+    return shares <= WEIR_MAX_PARTS &&
+           (shares == 1 || shares + other_buffers(constants, most_bytes) <= buffers);
 }
 
 // 0: none.
 static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
-                               double allowance, double pairs, uint64_t most_bytes)
+                               double allowance, double pairs)
 {
     double reach = 1.0 + 2.0 * allowance;
     double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
@@ -56,8 +84,7 @@ static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConst
     uint32_t parts = (uint32_t)wanted;
     bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d ||
                 lattice_neighbors(parameters, 2, 1.0) <= short_list_2d;
-    bool fits = weir_gpu_wcsph_list_bytes(constants->particle_count, parts) <= most_bytes;
-    return pays && fits && !is_short(constants, reach) ? parts : 0;
+    return pays && !is_short(constants, reach) ? parts : 0;
 }
 
 // In 3D rows and layers half as high offer 2.3 candidates per neighbour instead of 3.6: where cells, an eighth of a support
@@ -80,9 +107,8 @@ static uint32_t lanes_for(double particles, double neighbors, bool software)
 }
 
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
-                         const WeirConstants *constants, const WeirGpu *gpu)
+                         const WeirConstants *constants, const WeirGpu *gpu, uint64_t most_list_bytes)
 {
-    uint64_t most_bytes = weir_buffers_most_bytes(gpu);
     double support = (double)(1u << constants->coordinate_bits);
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;
@@ -90,8 +116,9 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
-    traits->list_parts = parts_of_lists(parameters, constants, most, pairs, most_bytes);
-    bool lists = traits->list_parts > 0;
+    traits->list_parts = parts_of_lists(parameters, constants, most, pairs);
+    bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);
+    if (!lists) traits->list_parts = 0;
     if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);

@@ -51,13 +51,14 @@ static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
     [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, false, NULL},
     [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, false, NULL},
     [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, false, NULL},
-#define WEIR_COPIES(name, element) [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, false, element},
-#define WEIR_SIZES(name)           [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, true, NULL},
-#define WEIR_BUFFER(name)          WEIR_COPIES(name, NULL)
+#define WEIR_PARTS(name, element, written)                                                                   \
+    [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, false, element, written},
+#define WEIR_SIZES(name)  [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, true, NULL, NULL},
+#define WEIR_BUFFER(name) WEIR_PARTS(name, NULL, NULL)
     WEIR_WCSPH_BUFFERS
 #undef WEIR_BUFFER
 #undef WEIR_SIZES
-#undef WEIR_COPIES
+#undef WEIR_PARTS
 };
 
 #define BIT(name) (1u << WEIR_WCSPH_##name)
@@ -67,21 +68,27 @@ enum { FORCES_READS = SEARCH | BIT(solid_state) };
 enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(density_rate) | BIT(control) };
 enum { SUM_READS = BIT(kicked) | BIT(solid_particle) | BIT(solid_state) | BIT(blocks) };
 
-// How shaders reach the particles (copies.h). Eight at once, or place and motion together, take one choice of the copy.
-static const WeirCopyFunction functions[] = {
-    {"coordinate_at(k: u32) -> vec4i", "return $coordinate[#];", BIT(coordinate), 0},
+// How shaders reach the particles and their lists (parts.h). Eight at once, or place and motion together, take one choice of
+// the part.
+#define COPY "constants.particle_count"
+static const WeirPartFunction functions[] = {
+    {"coordinate_at(k: u32) -> vec4i", "return $coordinate[#];", COPY, BIT(coordinate), 0},
     {"coordinate_block(k: u32) -> array<vec4i, 8>",
      "return array($coordinate[#], $coordinate[# + 1u], $coordinate[# + 2u], $coordinate[# + 3u], "
      "$coordinate[# + 4u], $coordinate[# + 5u], $coordinate[# + 6u], $coordinate[# + 7u]);",
-     BIT(coordinate), 0},
-    {"motion_at(k: u32) -> vec4f", "return $motion[#];", BIT(motion), 0},
-    {"particle_at(k: u32) -> Particle", "return Particle($coordinate[#], $motion[#]);", PARTICLES, 0},
-    {"kicked_at(k: u32) -> vec4f", "return $kicked[#];", BIT(kicked), 0},
-    {"set_coordinate(k: u32, to: vec4i)", "$coordinate[#] = to; return;", 0, BIT(coordinate)},
-    {"set_motion(k: u32, to: vec4f)", "$motion[#] = to; return;", 0, BIT(motion)},
-    {"set_kicked(k: u32, to: vec4f)", "$kicked[#] = to; return;", 0, BIT(kicked)},
-    {NULL, NULL, 0, 0},
+     COPY, BIT(coordinate), 0},
+    {"motion_at(k: u32) -> vec4f", "return $motion[#];", COPY, BIT(motion), 0},
+    {"particle_at(k: u32) -> Particle", "return Particle($coordinate[#], $motion[#]);", COPY, PARTICLES, 0},
+    {"kicked_at(k: u32) -> vec4f", "return $kicked[#];", COPY, BIT(kicked), 0},
+    {"set_coordinate(k: u32, to: vec4i)", "$coordinate[#] = to; return;", COPY, 0, BIT(coordinate)},
+    {"set_motion(k: u32, to: vec4f)", "$motion[#] = to; return;", COPY, 0, BIT(motion)},
+    {"set_kicked(k: u32, to: vec4f)", "$kicked[#] = to; return;", COPY, 0, BIT(kicked)},
+    {"list_chunk(k: u32) -> vec2u", "return $neighbor_list[#];", "2u * LIST_SHARE", BIT(neighbor_list), 0},
+    {"set_list_part(k: u32, to: vec4u)", "$neighbor_list[#] = to; return;", "LIST_SHARE", 0,
+     BIT(neighbor_list)},
+    {NULL, NULL, NULL, 0, 0},
 };
+#undef COPY
 
 static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
 static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
@@ -192,7 +199,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
         at_least_one(traits->drain_group_count + traits->drain_count) * sizeof(WeirDrain);
     // coordinate_block() may load seven beyond the last one. Both of one size: they come apart together.
     sizes[WEIR_WCSPH_coordinate] = sizes[WEIR_WCSPH_motion] = (WeirBufferSize){16 * count, 3, 7 * 16};
-    sizes[WEIR_WCSPH_neighbor_list].bytes = weir_gpu_wcsph_list_bytes((uint32_t)count, traits->list_parts);
+    sizes[WEIR_WCSPH_neighbor_list] = weir_gpu_wcsph_list_size(traits);
     sizes[WEIR_WCSPH_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
@@ -242,6 +249,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("CAN_EMPTY", traits->can_empty);
     FLAG("LISTS", traits->list_parts > 0);
     NUMBER("LIST_PARTS", traits->list_parts);
+    NUMBER("LIST_SHARE", 128 * (traits->list_parts + 1) * traits->list_blocks);
     NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);

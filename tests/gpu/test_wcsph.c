@@ -217,19 +217,18 @@ static void outrun_lists_lose_nobody(void **state)
     }
 }
 
-// Without lists, as where a device's buffers are too small for them, the walk alone finds the neighbours.
+// Without lists, as where they would take too much memory, the walk alone finds the neighbours.
 static void walks_find_what_lists_find(void **state)
 {
     (void)state;
     static const char *const names[] = {"dam_2d", "body_3d"};
     static const uint32_t lanes[] = {2, 1};
-    uint64_t own = gpu->limits.maxStorageBufferBindingSize;
     for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
         WeirTestWorld test = weir_test_case(names[n]);
         WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
-        gpu->limits.maxStorageBufferBindingSize = 64 * (uint64_t)test.world.particles.count;
+        gpu->options.list_memory = 1;
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
-        gpu->limits.maxStorageBufferBindingSize = own;
+        gpu->options.list_memory = 0;
         assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_parts, 0);
         begin_anew(on_gpu, &test, lanes[n]);
         // (After 40 a wall's particle has its only fluid at the very end of its support: no pressure, or all of it.)

@@ -75,6 +75,19 @@ static uint64_t run(const char *name, Course course)
     return hash;
 }
 
+// The lists' buffer: its parts, 0 if there are no lists, and their bytes together.
+static uint32_t list_parts(const char *name, uint64_t *bytes)
+{
+    WeirTestWorld test = weir_test_case(name);
+    WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
+    const WeirWcsphGpu *own = (const WeirWcsphGpu *)solver;
+    uint32_t parts = own->traits.list_parts > 0 ? own->common.buffers.parts[WEIR_WCSPH_neighbor_list] : 0;
+    *bytes = weir_buffers_bytes(&own->common.buffers, WEIR_WCSPH_neighbor_list);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+    return parts;
+}
+
 static const char *const lively[] = {"piston_2d", "bodies_2d", "body_3d", "taps_2d", "periodic_3d", "dam_2d"};
 enum { LIVELY = sizeof lively / sizeof lively[0] };
 
@@ -107,26 +120,53 @@ static void dispatches_and_checks_change_nothing(void **state)
     weir_gpu_destroy(trusted);
 }
 
-// Where all copies of the particles do not fit one binding, each has its own: that changes nothing. (No lists fit either
-// then, so both walk.)
-static void copies_apart_change_nothing(void **state)
+// Where all lists, or all copies of the particles, do not fit one binding, they lie in several: that changes nothing.
+static void buffers_in_parts_change_nothing(void **state)
 {
     (void)state;
-    static const char *const names[] = {"body_3d", "dam_3d", "tap_3d"};
-    uint64_t own = gpu->limits.maxStorageBufferBindingSize;
-    for (int n = 0; n < 3; ++n) {
+    static const char *const names[] = {"body_3d", "dam_3d", "tap_3d", "dam_2d"};
+    uint64_t own = gpu->limits.maxStorageBufferBindingSize, bytes;
+    for (int n = 0; n < 4; ++n) {
         WeirTestWorld test = weir_test_case(names[n]);
         uint64_t count = test.world.particles.count;
         weir_test_world_free(&test);
-        gpu->limits.maxStorageBufferBindingSize = 3 * 16 * count + 7 * 16;
         uint64_t once = run(names[n], (Course){gpu, 24, 24, false, false});
+        assert_int_equal(list_parts(names[n], &bytes), 1);
+        gpu->limits.maxStorageBufferBindingSize = bytes / 3 + 8192;
+        assert_in_range(list_parts(names[n], &bytes), 2, 4);
+        assert_true(run(names[n], (Course){gpu, 24, 24, false, false}) == once);
+        gpu->options.list_memory = 1;
+        uint64_t walked = run(names[n], (Course){gpu, 24, 24, false, false});
+        gpu->options.list_memory = 0;
         gpu->limits.maxStorageBufferBindingSize =
             3 * 16 * count + 7 * 16 - 1; // coordinate and motion are apart
-        assert_true(run(names[n], (Course){gpu, 24, 8, true, false}) == once);
+        uint32_t parts = list_parts(names[n], &bytes);
+        assert_true(parts > 0 ||
+                    strcmp(names[n], "dam_3d") != 0); // the others' lists would be in too many parts
+        assert_true(run(names[n], (Course){gpu, 24, 8, true, false}) == (parts > 0 ? once : walked));
         gpu->limits.maxStorageBufferBindingSize = 2 * 16 * count - 1; // of a moving solid's world kicked too
-        assert_true(run(names[n], (Course){gpu, 24, 24, false, false}) == once);
+        assert_int_equal(list_parts(names[n], &bytes), 0);
+        assert_true(run(names[n], (Course){gpu, 24, 24, false, false}) == walked);
+        gpu->limits.maxStorageBufferBindingSize = own;
     }
-    gpu->limits.maxStorageBufferBindingSize = own;
+}
+
+// Lists that a device cannot bind, or that are to take less memory, are left out.
+static void lists_keep_to_their_limits(void **state)
+{
+    (void)state;
+    WGPULimits own = gpu->limits;
+    uint64_t bytes, less;
+    assert_int_equal(list_parts("dam_3d", &bytes), 1);
+    gpu->limits.maxStorageBufferBindingSize = bytes / 3 + 8192;
+    gpu->limits.maxStorageBuffersPerShaderStage = 8;
+    assert_int_equal(list_parts("dam_3d", &less), 0);
+    gpu->limits = own;
+    gpu->options.list_memory = bytes;
+    assert_int_equal(list_parts("dam_3d", &less), 1);
+    gpu->options.list_memory = bytes - 1;
+    assert_int_equal(list_parts("dam_3d", &less), 0);
+    gpu->options.list_memory = 0;
 }
 
 // A device that binds too few buffers says so.
@@ -436,7 +476,8 @@ int main(void)
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(equal_runs_give_equal_bits),
         cmocka_unit_test(dispatches_and_checks_change_nothing),
-        cmocka_unit_test(copies_apart_change_nothing),
+        cmocka_unit_test(buffers_in_parts_change_nothing),
+        cmocka_unit_test(lists_keep_to_their_limits),
         cmocka_unit_test(too_few_bindings_are_told),
         cmocka_unit_test(runs_end_in_time),
         cmocka_unit_test(a_blow_up_is_found),
