@@ -261,6 +261,9 @@ typedef struct WeirPassTime {
 } WeirPassTime;
 // Returns the number of passes and fills at most `capacity`; 0 where the device gives no times.
 uint32_t weir_sim_pass_times(const WeirSim *sim, WeirPassTime *times, uint32_t capacity);
+// Milliseconds that the device takes for a step, averaged over batches of steps lately (on the CPU: the last step); 0 where
+// that is not known. A step that is measured pass by pass takes longer.
+double weir_sim_step_time(const WeirSim *sim);
 
 #ifdef __cplusplus
 }

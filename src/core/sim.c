@@ -574,6 +574,18 @@ uint32_t weir_sim_pass_times(const WeirSim *sim, WeirPassTime *times, uint32_t c
     return sim->solver ? sim->solver->interface->pass_times(sim->solver, times, capacity) : 0;
 }
 
+double weir_sim_step_time(const WeirSim *sim)
+{
+    enum { MOST = 64 };
+    if (!sim->solver) return 0.0;
+    if (sim->solver->interface->step_time) return sim->solver->interface->step_time(sim->solver);
+    WeirPassTime times[MOST];
+    uint32_t count = weir_sim_pass_times(sim, times, MOST);
+    double sum = 0.0;
+    for (uint32_t n = 0; n < count && n < MOST; ++n) sum += times[n].milliseconds;
+    return sum;
+}
+
 WeirStatus weir_sim_count_neighbors(WeirSim *sim, uint32_t particles, WeirNeighborCount *found)
 {
     static const uint32_t enough = 1024;

@@ -63,6 +63,8 @@ typedef struct WeirSolverInterface {
     // The same without evaluating: position, velocity, group and time alone. NULL where it would be no faster.
     WeirStatus (*read_motion)(WeirSolver *solver, WeirState *state);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
+    // Milliseconds per step; 0: not known. NULL: those of all passes.
+    double (*step_time)(const WeirSolver *solver);
 } WeirSolverInterface;
 
 // First member of every solver.

@@ -69,13 +69,11 @@ static void submit_steps(WeirMueller *solver, uint32_t steps, bool measured)
         --steps;
     }
     if (steps > 0) {
-        WeirRecorder recorder = weir_recorder_begin(common, encoder);
+        WeirRecorder recorder = weir_recorder_batch(common, encoder, steps, measured);
         for (uint32_t n = 0; n < steps; ++n) take_step(solver, &recorder);
         weir_recorder_end(&recorder);
     }
-    weir_gpu_submit(common->gpu, encoder, "step");
-    if (measured) weir_profile_submitted(common->profile);
-    ++common->work;
+    weir_gpu_solver_submit_steps(common, encoder, measured);
 }
 
 static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
@@ -197,6 +195,7 @@ static const WeirSolverInterface mueller_interface = {
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
     .pass_times = weir_gpu_solver_pass_times,
+    .step_time = weir_gpu_solver_step_time,
 };
 
 static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMessage *message)

@@ -22,10 +22,10 @@ SHADER(solve_forces_all_pairs)
 SHADER(solve_integrate)
 
 static const WeirBufferInfo buffers[WEIR_MUELLER_BUFFER_TOTAL] = {
-    [WEIR_MUELLER_parameters] = {"parameters", "buffer parameters", true, false, NULL},
-    [WEIR_MUELLER_constants] = {"constants", "buffer constants", true, false, NULL},
+    [WEIR_MUELLER_parameters] = {"parameters", "buffer parameters", true, false, NULL, NULL},
+    [WEIR_MUELLER_constants] = {"constants", "buffer constants", true, false, NULL, NULL},
 #define WEIR_BUFFER(name, per_particle, per_cell)                                                            \
-    [WEIR_MUELLER_##name] = {#name, "buffer " #name, false, false, NULL},
+    [WEIR_MUELLER_##name] = {#name, "buffer " #name, false, false, NULL, NULL},
     WEIR_MUELLER_BUFFERS
 #undef WEIR_BUFFER
 };

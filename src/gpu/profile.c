@@ -4,7 +4,9 @@
 
 #include <stdlib.h>
 
-enum { QUERIES = 2 * WEIR_MAX_PASSES, RESOLVE_SIZE = 8 * QUERIES };
+// Pairs of the passes, and one of the batch after them.
+enum { QUERIES = 2 * (WEIR_MAX_PASSES + 1), RESOLVE_SIZE = 8 * QUERIES };
+static const double newest_share = 0.25; // of the mean over batches
 
 struct WeirProfile {
     WeirGpu *gpu;
@@ -12,8 +14,9 @@ struct WeirProfile {
     WGPUBuffer resolved;
     WeirReadback *readback;
     const char *passes[WEIR_MAX_PASSES]; // names, of the step under way, in order
-    uint32_t count;
-    double nanoseconds; // per tick
+    uint32_t count, batch_steps;         // batch_steps 0: no batch
+    double nanoseconds;                  // per tick
+    double batch_step;                   // ms of a step, averaged; 0: not known
     WeirPassTime times[WEIR_MAX_PASSES];
     uint32_t time_count;
 };
@@ -54,7 +57,17 @@ bool weir_profile_ready(const WeirProfile *profile)
 
 void weir_profile_start(WeirProfile *profile)
 {
-    profile->count = 0;
+    profile->count = profile->batch_steps = 0;
+}
+
+static WGPUComputePassEncoder begin_timed(const WeirProfile *profile, uint32_t pair, const char *label,
+                                          WGPUCommandEncoder encoder)
+{
+    WGPUPassTimestampWrites writes = {.querySet = profile->queries,
+                                      .beginningOfPassWriteIndex = 2 * pair,
+                                      .endOfPassWriteIndex = 2 * pair + 1};
+    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(label), .timestampWrites = &writes};
+    return wgpuCommandEncoderBeginComputePass(encoder, &descriptor);
 }
 
 WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char *pass,
@@ -62,10 +75,7 @@ WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char 
 {
     uint32_t n = profile->count++;
     profile->passes[n] = pass;
-    WGPUPassTimestampWrites writes = {
-        .querySet = profile->queries, .beginningOfPassWriteIndex = 2 * n, .endOfPassWriteIndex = 2 * n + 1};
-    WGPUComputePassDescriptor descriptor = {.label = weir_gpu_text(pass), .timestampWrites = &writes};
-    return wgpuCommandEncoderBeginComputePass(encoder, &descriptor);
+    return begin_timed(profile, n, pass, encoder);
 }
 
 void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder)
@@ -75,9 +85,17 @@ void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder)
     wgpuComputePassEncoderRelease(encoder);
 }
 
+WGPUComputePassEncoder weir_profile_begin_batch(WeirProfile *profile, uint32_t steps,
+                                                WGPUCommandEncoder encoder)
+{
+    profile->batch_steps = steps;
+    return begin_timed(profile, profile->count, "steps", encoder);
+}
+
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder)
 {
-    wgpuCommandEncoderResolveQuerySet(encoder, profile->queries, 0, 2 * profile->count, profile->resolved, 0);
+    uint32_t pairs = profile->count + (profile->batch_steps > 0 ? 1 : 0);
+    wgpuCommandEncoderResolveQuerySet(encoder, profile->queries, 0, 2 * pairs, profile->resolved, 0);
     weir_readback_copy(profile->readback, encoder, 0, profile->resolved, 0);
 }
 
@@ -86,21 +104,32 @@ void weir_profile_submitted(WeirProfile *profile)
     weir_readback_start(profile->readback);
 }
 
+static double milliseconds(const WeirProfile *profile, const uint64_t ticks[2])
+{
+    return ticks[1] > ticks[0] ? (double)(ticks[1] - ticks[0]) * profile->nanoseconds * 1e-6 : 0.0;
+}
+
+static void take_batch(WeirProfile *profile, const uint64_t ticks[2])
+{
+    double step = milliseconds(profile, ticks) / profile->batch_steps;
+    if (profile->batch_step > 0.0) step = profile->batch_step + newest_share * (step - profile->batch_step);
+    profile->batch_step = step;
+}
+
 void weir_profile_poll(WeirProfile *profile)
 {
     if (!profile || weir_readback_state(profile->readback) != WEIR_READBACK_READY) return;
     const uint64_t *ticks = weir_readback_data(profile->readback, 0);
     profile->time_count = ticks ? profile->count : 0;
-    for (uint32_t n = 0; n < profile->time_count; ++n) {
-        uint64_t begin = ticks[2 * n], end = ticks[2 * n + 1];
-        double elapsed = end > begin ? (double)(end - begin) : 0.0;
-        profile->times[n] = (WeirPassTime){profile->passes[n], elapsed * profile->nanoseconds * 1e-6};
-    }
+    for (uint32_t n = 0; n < profile->time_count; ++n)
+        profile->times[n] = (WeirPassTime){profile->passes[n], milliseconds(profile, ticks + 2 * n)};
+    if (ticks && profile->batch_steps > 0) take_batch(profile, ticks + 2 * profile->count);
     weir_readback_finish(profile->readback);
 }
 
 double weir_profile_step(const WeirProfile *profile)
 {
+    if (profile && profile->batch_step > 0.0) return profile->batch_step;
     double total = 0.0;
     for (uint32_t n = 0; profile && n < profile->time_count; ++n) total += profile->times[n].milliseconds;
     return total;

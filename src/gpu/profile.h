@@ -1,5 +1,5 @@
 // Milliseconds per pass: now and then one step runs with a compute pass of its own, and a pair of timestamps,
-// for each pass.
+// for each pass. The steps of the same submit after it share another pair: browsers round timestamps to 0.1 ms.
 #pragma once
 
 #include "gpu/passes.h"
@@ -16,11 +16,14 @@ void weir_profile_start(WeirProfile *profile);
 WGPUComputePassEncoder weir_profile_begin_pass(WeirProfile *profile, const char *pass,
                                                WGPUCommandEncoder encoder);
 void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder);
-// Ends the measured step: before and after its commands are submitted.
+// A compute pass for `steps` more steps, which the caller ends.
+WGPUComputePassEncoder weir_profile_begin_batch(WeirProfile *profile, uint32_t steps,
+                                                WGPUCommandEncoder encoder);
+// Ends the measurement: before and after its commands are submitted.
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder);
 void weir_profile_submitted(WeirProfile *profile);
 // Takes times that have arrived.
 void weir_profile_poll(WeirProfile *profile);
-// Milliseconds of the step measured last, all passes; 0 if none is known.
+// Milliseconds per step: of the batches measured lately, or else of the step measured last, all passes; 0 if none is known.
 double weir_profile_step(const WeirProfile *profile);
 uint32_t weir_profile_times(const WeirProfile *profile, WeirPassTime *times, uint32_t capacity);

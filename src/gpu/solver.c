@@ -150,6 +150,13 @@ WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder enc
     return (WeirRecorder){solver, encoder, NULL};
 }
 
+WeirRecorder weir_recorder_batch(WeirGpuSolver *solver, WGPUCommandEncoder encoder, uint32_t steps,
+                                 bool measured)
+{
+    if (!measured) return weir_recorder_begin(solver, encoder);
+    return (WeirRecorder){solver, encoder, weir_profile_begin_batch(solver->profile, steps, encoder)};
+}
+
 // Where a pass goes, in a measured step one of its own; then it is to be ended.
 static WGPUComputePassEncoder pass_encoder(const WeirRecorder *recorder, uint32_t pass)
 {
@@ -176,12 +183,17 @@ void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t 
 
 void weir_recorder_end(const WeirRecorder *recorder)
 {
-    if (recorder->pass) {
-        wgpuComputePassEncoderEnd(recorder->pass);
-        wgpuComputePassEncoderRelease(recorder->pass);
-    } else {
-        weir_profile_resolve(recorder->solver->profile, recorder->encoder);
-    }
+    if (!recorder->pass) return; // each pass has ended its own
+    wgpuComputePassEncoderEnd(recorder->pass);
+    wgpuComputePassEncoderRelease(recorder->pass);
+}
+
+void weir_gpu_solver_submit_steps(WeirGpuSolver *solver, WGPUCommandEncoder encoder, bool measured)
+{
+    if (measured) weir_profile_resolve(solver->profile, encoder);
+    weir_gpu_submit(solver->gpu, encoder, "step");
+    if (measured) weir_profile_submitted(solver->profile);
+    ++solver->work;
 }
 
 uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs)
@@ -270,4 +282,9 @@ WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)
 {
     return weir_profile_times(((const WeirGpuSolver *)base)->profile, times, capacity);
+}
+
+double weir_gpu_solver_step_time(const WeirSolver *base)
+{
+    return weir_profile_step(((const WeirGpuSolver *)base)->profile);
 }

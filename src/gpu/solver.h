@@ -72,10 +72,15 @@ WGPUCommandEncoder weir_gpu_solver_commands(WeirGpuSolver *solver, const char *l
 WeirRecorder weir_recorder_begin(WeirGpuSolver *solver, WGPUCommandEncoder encoder);
 // A recorder of a step that is measured pass by pass.
 WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder encoder);
+// One of `steps` steps that may be `measured` together, after such a step.
+WeirRecorder weir_recorder_batch(WeirGpuSolver *solver, WGPUCommandEncoder encoder, uint32_t steps,
+                                 bool measured);
 void weir_record(const WeirRecorder *recorder, uint32_t pass);
 // A pass whose workgroups the device decides, by three numbers in buffer `sizes` from byte `offset` on.
 void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t sizes, uint64_t offset);
 void weir_recorder_end(const WeirRecorder *recorder);
+// Submits steps, which changes the state.
+void weir_gpu_solver_submit_steps(WeirGpuSolver *solver, WGPUCommandEncoder encoder, bool measured);
 
 // Steps that one submit may hold: less than 50 ms, after which a watchdog or a browser's frame would suffer. By the
 // step measured last; before there is one, by the candidates `pairs` that a step visits, as on an integrated GPU.
@@ -88,3 +93,4 @@ WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
 WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
 WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
+double weir_gpu_solver_step_time(const WeirSolver *solver);

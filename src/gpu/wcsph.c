@@ -116,7 +116,7 @@ static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool 
         ++solver->counted;
         --steps;
     }
-    recorder = weir_recorder_begin(common, encoder);
+    recorder = weir_recorder_batch(common, encoder, steps, measured && steps > 0);
     for (uint32_t n = 0; n < steps; ++n) {
         bool may_sort = !solver->certain || solver->counted % solver->traits.sort_interval == 0;
         record_step(solver, &recorder, may_sort);
@@ -124,9 +124,7 @@ static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool 
     }
     if (last) weir_record(&recorder, WEIR_WCSPH_HEALTH);
     weir_recorder_end(&recorder);
-    weir_gpu_submit(common->gpu, encoder, "step");
-    if (measured) weir_profile_submitted(common->profile);
-    ++common->work;
+    weir_gpu_solver_submit_steps(common, encoder, measured);
 }
 
 // Seconds as the device counts them.
@@ -270,6 +268,7 @@ static const WeirSolverInterface wcsph_interface = {
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
     .pass_times = weir_gpu_solver_pass_times,
+    .step_time = weir_gpu_solver_step_time,
 };
 
 static bool make_host(WeirWcsphGpu *solver)

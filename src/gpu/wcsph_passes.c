@@ -46,11 +46,11 @@ SHADER(wcsph_first_step)
 SHADER(wcsph_health)
 
 static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
-    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, false, NULL},
-    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true, false, NULL},
-    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, false, NULL},
-    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, false, NULL},
-    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, false, NULL},
+    [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, false, NULL, NULL},
+    [WEIR_WCSPH_constants] = {"constants", "buffer constants", true, false, NULL, NULL},
+    [WEIR_WCSPH_solid_table] = {"solid_table", "buffer solid_table", true, false, NULL, NULL},
+    [WEIR_WCSPH_emitters] = {"emitters", "buffer emitters", true, false, NULL, NULL},
+    [WEIR_WCSPH_drains] = {"drains", "buffer drains", true, false, NULL, NULL},
 #define WEIR_PARTS(name, element, written)                                                                   \
     [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, false, element, written},
 #define WEIR_SIZES(name)  [WEIR_WCSPH_##name] = {#name, "buffer " #name, false, true, NULL, NULL},

@@ -248,6 +248,11 @@ static void passes_are_timed(void **state)
             total += times[n].milliseconds;
         }
         assert_true(total > 0);
+        assert_true(weir_sim_step_time(sim) > 0);
+        weir_test_step(sim, 30);
+        assert_int_equal(weir_sim_wait(sim), WEIR_OK);
+        CHECK_AT_MOST(weir_sim_step_time(sim), 10e3);
+        assert_true(weir_sim_step_time(sim) > 0);
         WeirPassTime one = {NULL, 0};
         assert_int_equal(weir_sim_pass_times(sim, &one, 1), count);
         assert_string_equal(one.name, "count");
@@ -259,6 +264,7 @@ static void passes_are_timed(void **state)
     weir_test_step(sim, 3);
     assert_int_equal(weir_sim_wait(sim), WEIR_OK);
     assert_int_equal(weir_sim_pass_times(sim, times, 16), 0);
+    assert_true(weir_sim_step_time(sim) == 0);
     weir_sim_destroy(sim);
     weir_gpu_destroy(gpu);
 }

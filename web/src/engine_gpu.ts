@@ -208,7 +208,7 @@ export class GpuEngine implements Engine {
   readonly #done = (): void => {
     const now = performance.now();
     const begin = Math.max(this.#sent[0] as number, this.#lastDone);
-    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#budgetMs);
+    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#budgetMs, this.gpu.isSoftware ? 0 : (this.#sim?.stepTime ?? 0));
     this.#lastDone = now;
     this.#sent.copyWithin(0, 1);
     this.#sentSteps.copyWithin(0, 1);

@@ -1,8 +1,10 @@
-// How many steps a frame may take, from the time that the last ones took. A frame costs something without any step
-// (drawing) and something per step; both are fitted to the last frames, so that costly drawing does not pass for
-// costly steps.
+// How many steps a frame may take. Where the device tells what a step takes, they fill the frame's budget, less while frames
+// come late. Else from the time that the last frames took: a frame costs something without any step (drawing) and
+// something per step; both are fitted, so that costly drawing does not pass for costly steps.
 
 const mostSteps = 1024;
+const leastShare = 0.6; // of the budget: where drawing alone eats it, the fluid still gets that
+const lateness = 1.35; // of the budget, which is less than a frame
 const memory = 0.95; // weight of a frame relative to the next one
 const probeEvery = 8; // frames; a few more steps then, or all frames would be alike and the fit could not tell
 
@@ -10,6 +12,8 @@ export class Pace {
   maxSteps = 2; // careful at the start: a step may be slow here
   stepMs = 0; // milliseconds per step; 0: not known yet
   #limit = 2;
+  #share = 1; // of the budget that is filled
+  #meanMs = 0; // of the last frames
   #frames = 0;
   // Weighted sums over the last frames: number, steps, their square, milliseconds, product.
   #n = 0;
@@ -18,9 +22,21 @@ export class Pace {
   #y = 0;
   #xy = 0;
 
-  // A frame with `steps` steps took `ms`; it may spend `budgetMs`.
-  measured(steps: number, ms: number, budgetMs: number): void {
+  // A frame with `steps` steps took `ms`; it may spend `budgetMs`. `deviceMs`: of a step, by the device's clock; 0: not known.
+  measured(steps: number, ms: number, budgetMs: number, deviceMs = 0): void {
     if (!(ms >= 0)) return;
+    if (deviceMs > 0) {
+      this.#frames++;
+      this.stepMs = deviceMs;
+      // What a frame takes besides, and how late the browser tells of its end, nobody knows: where frames come late, they get
+      // fewer steps.
+      this.#meanMs += 0.1 * (Math.min(ms, 4 * budgetMs) - this.#meanMs);
+      const isLate = this.#meanMs > lateness * budgetMs && 2 * steps > this.maxSteps;
+      this.#share = Math.min(Math.max(this.#share * (isLate ? 0.98 : 1.005), leastShare), 1);
+      this.#grow(Math.floor((this.#share * budgetMs) / deviceMs));
+      this.maxSteps = this.#limit;
+      return;
+    }
     const mean = this.#n > 0 ? this.#y / this.#n : ms;
     const kept = this.#frames > 4 ? Math.min(ms, 4 * mean) : ms; // a hiccup says nothing about steps
     this.#n = memory * this.#n + 1;
@@ -50,16 +66,20 @@ export class Pace {
 
   #limitSteps(budgetMs: number): void {
     const fixed = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
-    // Where drawing alone eats the budget, the fluid still gets its share.
-    const affordable = Math.floor(Math.max(budgetMs - fixed, 0.6 * budgetMs) / this.stepMs);
-    // Grows gently, because a few steps say little about many; shrinks at once.
-    this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
+    this.#grow(Math.floor(Math.max(budgetMs - fixed, leastShare * budgetMs) / this.stepMs));
     const probe = this.#frames % probeEvery === 0 ? Math.max(1, this.#limit >> 2) : 0;
     this.maxSteps = Math.min(this.#limit + probe, mostSteps);
   }
 
+  // Gently, because a few steps say little about many; shrinks at once.
+  #grow(affordable: number): void {
+    this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
+  }
+
   reset(): void {
     this.maxSteps = this.#limit = 2;
+    this.#share = 1;
+    this.#meanMs = 0;
     this.stepMs = this.#frames = this.#n = this.#x = this.#xx = this.#y = this.#xy = 0;
   }
 }

@@ -629,6 +629,11 @@ export class Sim {
     });
   }
 
+  // Milliseconds that the device takes for a step, averaged over batches; 0: not known.
+  get stepTime(): number {
+    return this.#context.c.weir_sim_step_time(this.pointer);
+  }
+
   destroy(): void {
     if (!this.#alive) return;
     this.#alive = false;
