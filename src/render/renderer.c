@@ -75,11 +75,12 @@ static WeirStatus prepare(WeirRenderer *renderer)
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the renderer's uniforms.");
 }
 
-static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension)
+static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension, bool water)
 {
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
     int first = dimension == 3 ? WEIR_EFFECT_SHADOW : WEIR_EFFECT_BACKGROUND;
-    int end = dimension == 3 ? WEIR_EFFECTS : WEIR_EFFECT_SHADOW;
+    int end = dimension == 3 ? WEIR_EFFECT_SHADE : WEIR_EFFECT_SHADOW;
+    if (water) end = WEIR_EFFECTS;
     bool made = false;
     for (int kind = first; kind < end; kind++) {
         WGPURenderPipeline *pipeline = &renderer->pipelines[method][kind];
@@ -190,7 +191,7 @@ static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticl
 }
 
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
-                          const WeirDrawing *drawing)
+                          WeirTextures textures, uint32_t number, const WeirDrawing *drawing)
 {
     uint32_t vertices = 4, instances = 1;
     switch (kind) {
@@ -198,12 +199,16 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     case WEIR_EFFECT_PARTICLES:
     case WEIR_EFFECT_SHADOW:
     case WEIR_EFFECT_SPHERES:
+    case WEIR_EFFECT_SHADE:
+    case WEIR_EFFECT_SURFACE:
+    case WEIR_EFFECT_THICKNESS:
         instances = drawing->particle_count;
         break;
     case WEIR_EFFECT_OVERLAY: // four sides of the outline, then the ring
         instances = drawing->frame->tool_radius > 0.0f ? 5 : 4;
         break;
     case WEIR_EFFECT_EDGES:
+    case WEIR_EFFECT_FRONT_EDGES:
         instances = 12;
         break;
     case WEIR_EFFECT_GROUND:
@@ -215,10 +220,9 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     wgpuRenderPassEncoderSetPipeline(pass, renderer->pipelines[drawing->method][kind]);
     wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
     wgpuRenderPassEncoderSetBindGroup(pass, 1, drawing->particles, 0, NULL);
-    WeirTextures textures = weir_effect_textures(kind);
     if (textures != WEIR_TEXTURES_NONE)
         wgpuRenderPassEncoderSetBindGroup(pass, 2, renderer->space.groups[textures], 0, NULL);
-    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, 0);
+    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
 }
 
 static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
@@ -233,7 +237,7 @@ static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
         &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &attachment});
     for (int kind = WEIR_EFFECT_BACKGROUND; kind <= WEIR_EFFECT_OVERLAY; kind++) {
         if (renderer->effects & 1u << kind)
-            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, drawing);
+            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, WEIR_TEXTURES_NONE, 0, drawing);
     }
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);
@@ -260,8 +264,9 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
 {
     uint32_t dimension = weir_sim_dimension(sim);
     WeirStatus status = prepare(renderer);
-    if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension);
-    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height);
+    bool water = dimension == 3 && view->fluid_style == WEIR_FLUID_WATER;
+    if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
+    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
     if (status != WEIR_OK) return status;
     WeirFrame frame;
     weir_frame_fill(&frame, sim, view, width, height, renderer->format);
@@ -269,6 +274,7 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
                            .particle_count = particles->count,
                            .method = particles->method,
                            .frame = &frame,
+                           .water = water,
                            .target = target};
     if (!drawing.particles)
         return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No memory to draw the particles.");

@@ -1,0 +1,117 @@
+// smooth: the surface without the spheres that it is made of. Each pass fits a line to the depths along a row or column
+// around a pixel and takes its value there (local linear regression): slopes stay as they are and edges do not bend,
+// however one-sided the neighbours are. Depth is near / z, in which planes are linear on the screen. What is not a
+// continuation of the surface is left out (narrow range: Truong and Yuksel, "A narrow-range filter for screen-space
+// fluid rendering", I3D 2018). The kernel's width follows the particles' size on the screen.
+// in:  frame, depth (negative: a side of the domain, which stays), shares of the pixel (water, a side of the domain)
+// out: the same; instance 2 k smooths along rows, 2 k + 1 along columns
+
+@group(2) @binding(0) var before: texture_2d<f32>;
+
+struct Pass {
+    @builtin(position) place: vec4f,
+    @location(0) @interpolate(flat) number: u32,
+}
+
+const taps = 9;              // to each side
+const widest = 64.0;         // pixels
+const outline_width = 0.75;  // of the kernel that rounds the outline, spacings
+
+@vertex
+fn smooth_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Pass {
+    let place = vec4f(f32(vertex & 1u) * 4.0 - 1.0, f32(vertex >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+    return Pass(place, number);
+}
+
+fn load(pixel: vec2i) -> vec2f {
+    let last = vec2i(frame.size) - 1;
+    return textureLoad(before, clamp(pixel, vec2i(0), last), 0).xy;
+}
+
+fn spacing_in_pixels(depth: f32) -> f32 {
+    return frame.spacing * depth / (frame.near * frame.pixel_size);
+}
+
+// Sums of a weighted fit of a line.
+struct Fit { s0: f32, s1: f32, s2: f32, t0: f32, t1: f32 }
+
+fn add(fit: ptr<function, Fit>, x: f32, value: f32, weight: f32) {
+    (*fit).s0 += weight;
+    (*fit).s1 += weight * x;
+    (*fit).s2 += weight * x * x;
+    (*fit).t0 += weight * value;
+    (*fit).t1 += weight * x * value;
+}
+
+// The line's value at 0; the mean where there is no line.
+fn value_of(fit: Fit) -> f32 {
+    let spread = fit.s0 * fit.s2 - fit.s1 * fit.s1;
+    if spread <= 1e-3 * fit.s0 * fit.s2 { return fit.t0 / max(fit.s0, 1e-6); }
+    return (fit.s2 * fit.t0 - fit.s1 * fit.t1) / spread;
+}
+
+// Depth at a pixel from its row or column, reaching `reach` pixels.
+fn smoothed(pixel: vec2i, axis: vec2i, middle: f32, reach: f32) -> f32 {
+    let stride = max(reach / f32(taps), 1.0);
+    let limit = 2.6 * frame.spacing * middle * middle / frame.near; // of jumps, as a difference of depths
+    var fit = Fit(1.0, 0.0, 0.0, middle, 0.0);
+    for (var side = -1; side <= 1; side += 2) {
+        var last = middle;
+        var slope = 0.0;
+        for (var k = 1; k <= taps; k++) {
+            let x = round(f32(k) * stride);
+            if x > reach { break; }
+            let depth = load(pixel + axis * side * i32(x)).x;
+            let jump = depth - last;
+            if depth <= 0.0 || min(abs(jump), abs(jump - slope)) > limit { continue; }
+            slope = clamp(jump, -2.0 * limit, 2.0 * limit);
+            last = depth;
+            let part = x / reach;
+            add(&fit, f32(side) * part, depth, (1.0 - part * part) * (1.0 - part * part));
+        }
+    }
+    return value_of(fit);
+}
+
+// First passes: the share of water, rounded off, and a depth where there was none.
+fn outlined(pixel: vec2i, axis: vec2i, middle: vec2f) -> vec2f {
+    let center = to_view(0.5 * (frame.domain_min.xyz + frame.domain_max.xyz));
+    let usual = frame.near / max(center.z, 2.0 * frame.near);
+    let reach = clamp(outline_width * spacing_in_pixels(select(usual, abs(middle.x), middle.x != 0.0)), 1.0, 24.0);
+    let stride = max(reach / 6.0, 1.0);
+    var share = unpack_shares(middle.y);
+    var weight = 1.0;
+    var nearest = middle.x;
+    for (var k = 1; k <= 6; k++) {
+        let x = round(f32(k) * stride);
+        if x > reach { break; }
+        let part = x / (reach + 1.0);
+        let w = (1.0 - part * part) * (1.0 - part * part);
+        let one = load(pixel + axis * i32(x));
+        let other = load(pixel - axis * i32(x));
+        share += w * (unpack_shares(one.y) + unpack_shares(other.y));
+        weight += 2.0 * w;
+        if nearest == 0.0 { nearest = select(other.x, one.x, abs(one.x) > abs(other.x)); }
+    }
+    return vec2f(nearest, pack_shares(share / weight));
+}
+
+// Depth at a pixel that a side of the domain is to cover, so that the water's line on it is straight.
+fn with_side(place: vec2f, middle: vec2f) -> f32 {
+    if middle.x <= 0.0 || unpack_shares(middle.y).y < 0.3 { return middle.x; }
+    let ahead = domain_span(to_world(pixel_ray(place))).x;
+    return select(middle.x, -frame.near / ahead, ahead > frame.near);
+}
+
+@fragment
+fn smooth_fragment(draw: Pass) -> @location(0) vec4f {
+    let pixel = vec2i(draw.place.xy);
+    let axis = select(vec2i(1, 0), vec2i(0, 1), (draw.number & 1u) == 1u);
+    var middle = load(pixel);
+    if draw.number < 2u { middle = outlined(pixel, axis, middle); }
+    if draw.number == 1u { middle.x = with_side(draw.place.xy, middle); }
+    if middle.x <= 0.0 { return vec4f(middle, 0.0, 1.0); }
+    let width = array(3.4, 2.4, 1.2)[min(draw.number >> 1u, 2u)];
+    let reach = clamp(width * spacing_in_pixels(middle.x), 2.0, widest);
+    return vec4f(smoothed(pixel, axis, middle.x, reach), middle.y, 0.0, 1.0);
+}

@@ -1,0 +1,37 @@
+// thickness: how much water lies before what is behind it, at half the picture's resolution.
+// in:  frame, particles, the scene's depth
+// out: m; added up
+
+@group(2) @binding(0) var depths: texture_depth_multisampled_2d;
+
+struct Blob {
+    @builtin(position) place: vec4f,
+    @location(0) offset: vec2f,                  // from the centre, radii
+    @location(1) @interpolate(flat) look: vec2f, // m: peak; distance ahead
+}
+
+@vertex
+fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Blob {
+    var blob: Blob;
+    blob.place = vec4f(2.0, 2.0, 2.0, 1.0);
+    if particle_kind(particle) != FLUID { return blob; }
+    let center = to_view(particle_position(particle));
+    if center.z - frame.spacing < frame.near { return blob; }
+    let radius = max(thickness_radius * frame.spacing, 3.0 * frame.pixel_size * center.z);
+    let corner = square_corner(vertex);
+    blob.place = project(center + vec3f(corner * radius, 0.0));
+    blob.offset = corner;
+    // (1 - r^2)^2 over the disc integrates to pi / 3 radii^2; the blob holds one particle's volume.
+    let volume = frame.spacing * frame.spacing * frame.spacing;
+    blob.look = vec2f(3.0 * volume / (3.14159265 * radius * radius), center.z);
+    return blob;
+}
+
+@fragment
+fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
+    let inside = max(1.0 - dot(blob.offset, blob.offset), 0.0);
+    let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
+    let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
+    let before = clamp((behind - blob.look.y) / frame.spacing + 0.5, 0.0, 1.0);
+    return vec4f(blob.look.x * inside * inside * before, 0.0, 0.0, 0.0);
+}
