@@ -68,8 +68,8 @@ static const Effect effects[WEIR_EFFECTS] = {
                .shared = {LIGHT, LIQUID}, .blends = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LIGHT, SPHERE}, .particles = true, .tests_depth = true, .writes_depth = true,
-               .covers = true),
+               .shared = {LIGHT, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
+               .writes_depth = true, .covers = true),
     [WEIR_EFFECT_EDGES] = EFFECT("edges", space_edges, .target = TARGET_SCENE, .shared = {EDGE},
                                  .blends = true, .tests_depth = true),
     [WEIR_EFFECT_OCCLUSION] =
@@ -102,9 +102,8 @@ static WGPUStringView text_view(const char *text)
     return (WGPUStringView){.data = text, .length = strlen(text)};
 }
 
-// One shader of several texts; NULL if memory runs out.
-static WGPUShaderModule create_module(WGPUDevice device, const char *name, const char *const *parts,
-                                      size_t count)
+WGPUShaderModule weir_effect_module(WGPUDevice device, const char *name, const char *const *parts,
+                                    size_t count)
 {
     size_t length = 0;
     for (size_t k = 0; k < count; k++) length += strlen(parts[k]);
@@ -135,7 +134,7 @@ static WGPUShaderModule effect_module(const Effect *effect, WeirMethod method, W
     if (effect >= &effects[WEIR_EFFECT_SHADOW]) parts[count++] = weir_wgsl_render_space_space;
     for (int k = 0; k < SHARED && effect->shared[k]; k++) parts[count++] = effect->shared[k];
     parts[count++] = effect->source;
-    return create_module(device, effect->name, parts, count);
+    return weir_effect_module(device, effect->name, parts, count);
 }
 
 static WGPUTextureFormat color_format(const Effect *effect, WGPUTextureFormat target)

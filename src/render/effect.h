@@ -31,7 +31,7 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_DEPTH_FORMAT     WGPUTextureFormat_Depth32Float // its depth, and the shadow map's
 #define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
 #define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float // the water's depth, and its share of a pixel
-#define WEIR_THICKNESS_FORMAT WGPUTextureFormat_R16Float  // of water, m; added up
+#define WEIR_THICKNESS_FORMAT WGPUTextureFormat_RG16Float // of water and of foam, m; added up
 
 // What bind group 2 holds: nothing, or textures that effects in 3D read.
 typedef enum WeirTextures {
@@ -46,6 +46,9 @@ typedef enum WeirTextures {
     WEIR_TEXTURE_GROUPS,
 } WeirTextures;
 
+// One shader of several texts; NULL if memory runs out.
+WGPUShaderModule weir_effect_module(WGPUDevice device, const char *name, const char *const *parts,
+                                    size_t count);
 WeirTextures weir_effect_textures(WeirEffectKind kind);
 // Builds the pipeline of one effect; `target` is the format of the picture in the end. NULL if memory runs out. Faults
 // of the shader go to the device.

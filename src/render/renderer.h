@@ -6,7 +6,7 @@
 
 // Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
 typedef struct WeirParticleGroup {
-    WGPUBuffer buffers[3]; // as bound; references held, so that no new buffer gets their address
+    WGPUBuffer buffers[4]; // as bound; references held, so that no new buffer gets their address
     WGPUBindGroup group;   // NULL: free
     uint64_t last_frame;
 } WeirParticleGroup;
@@ -37,6 +37,17 @@ typedef struct WeirSpace {
     WGPUBindGroup groups[WEIR_TEXTURE_GROUPS];
 } WeirSpace;
 
+// crowd.c: how crowded it is around each particle.
+enum { WEIR_CROWD_STAGES = 2 };
+typedef struct WeirCrowd {
+    WGPUBindGroupLayout layout;
+    WGPUPipelineLayout pipeline_layout;
+    WGPUComputePipeline pipelines[WEIR_CROWD_STAGES];
+    uint32_t count, cell_count; // of particles and cells in the buffers
+    WGPUBuffer cells, values;
+    WGPUBindGroup group;
+} WeirCrowd;
+
 struct WeirRenderer {
     WeirGpu *gpu;
     WGPUTextureFormat format;
@@ -48,6 +59,7 @@ struct WeirRenderer {
     WGPUBindGroup frame_group;
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
     WeirSpace space;
+    WeirCrowd crowd;
     uint64_t frame_count;
     uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
     WeirMessage message;
@@ -57,6 +69,7 @@ struct WeirRenderer {
 typedef struct WeirDrawing {
     WGPUCommandEncoder encoder;
     WGPUBindGroup particles;
+    WGPUBindGroup uncounted; // the particles without what crowd.c makes; of water only
     uint32_t particle_count;
     WeirMethod method;
     const WeirFrame *frame;
@@ -73,6 +86,12 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
 // instance.
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
                           WeirTextures textures, uint32_t number, const WeirDrawing *drawing);
+
+// crowd.c
+WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t count);
+void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
+                      uint32_t count);
+void weir_crowd_release(WeirRenderer *renderer);
 
 // space.c
 void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device);

@@ -200,7 +200,7 @@ static void draw_into(WeirRenderer *renderer, const WeirDrawing *drawing, WeirSp
 // An even number of passes, so that the result lies where the surface was drawn.
 static void smooth_surface(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
-    enum { PASSES = 6 };
+    enum { PASSES = 8 };
     if (!(renderer->effects & 1u << WEIR_EFFECT_SMOOTH)) return;
     for (uint32_t k = 0; k < PASSES; k++) {
         bool back = k % 2;
@@ -233,6 +233,8 @@ static void draw_water(WeirRenderer *renderer, const WeirDrawing *drawing)
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     const WGPUTextureView *views = renderer->space.views;
+    if (drawing->water)
+        weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
     WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
     draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SHADOW);
     if (drawing->water) draw_into(renderer, drawing, WEIR_SPACE_SHADE, WEIR_EFFECT_SHADE);

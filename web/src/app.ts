@@ -13,7 +13,7 @@ import { SceneStore } from './scene_store.ts';
 import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
 import { StatusLine } from './status.ts';
 import { Camera, watchSize } from './view.ts';
-import { ColorBy, type ParameterInfo, type Weir } from './weir.ts';
+import { ColorBy, FluidStyle, type ParameterInfo, type Weir } from './weir.ts';
 
 export type AppOptions = {
   backend: Backend;
@@ -259,6 +259,7 @@ export class App implements PanelHost {
     this.plot.clear();
     this.#showScene();
     if (this.engine) this.status.restart(performance.now(), this.engine);
+    this.#showStyle();
     this.#panel?.refresh();
   }
 
@@ -308,6 +309,9 @@ export class App implements PanelHost {
   }
   get colorBy(): ColorBy {
     return this.camera.view.colorBy;
+  }
+  get fluidStyle(): FluidStyle {
+    return this.camera.view.fluidStyle ?? FluidStyle.particles;
   }
   method(): string {
     return this.store.scene.method;
@@ -370,7 +374,25 @@ export class App implements PanelHost {
     view.colorBy = colorBy;
     chooseRange(view, this.store.scene, this.store.document);
     this.#legend.update(this.weir, view);
+    this.setFluidStyle(FluidStyle.particles); // which alone have that colour
+  }
+
+  drawsWater(): boolean {
+    return this.engine?.kind === 'gpu' && this.store.scene.dimension === 3;
+  }
+  setFluidStyle(style: FluidStyle): void {
+    if (this.drawsWater()) this.camera.view.fluidStyle = style;
+    this.#showStyle();
     this.#panel?.refresh();
+  }
+  toggleWater(): void {
+    this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
+  }
+  // Water has no colour map, and where there is none no key for it.
+  #showStyle(): void {
+    const { classList } = document.body;
+    classList.toggle('may-be-water', this.drawsWater());
+    classList.toggle('water', this.drawsWater() && this.fluidStyle === FluidStyle.water);
   }
 
   setRadius(radius: number): void {
@@ -433,6 +455,7 @@ export class App implements PanelHost {
       h: () => this.togglePanel(),
       p: () => this.#showPlots(!this.plot.visible),
       v: () => this.camera.home(),
+      w: () => this.toggleWater(),
       '+': () => this.#zoom(1.15),
       '=': () => this.#zoom(1.15),
       '-': () => this.#zoom(1 / 1.15),

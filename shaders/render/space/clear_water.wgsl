@@ -51,14 +51,19 @@ fn scene_between(place: vec2f) -> vec3f {
     return to_linear(darkened(mix(above, below, part.y), occlusion_at(occlusions, near, scene_ahead(near))));
 }
 
-fn thickness_at(place: vec2f) -> f32 {
+fn thickness_texel(at: vec2u) -> vec2f {
+    return textureLoad(thickness_map, at, 0).xy;
+}
+
+// Of water and of foam, m.
+fn thickness_at(place: vec2f) -> vec2f {
     let last = vec2f(textureDimensions(thickness_map)) - 1.0;
     let at = clamp(0.5 * place - 0.5, vec2f(0.0), last);
     let corner = vec2u(at);
     let next = min(corner + 1u, vec2u(last));
     let part = fract(at);
-    let above = mix(textureLoad(thickness_map, corner, 0).x, textureLoad(thickness_map, vec2u(next.x, corner.y), 0).x, part.x);
-    let below = mix(textureLoad(thickness_map, vec2u(corner.x, next.y), 0).x, textureLoad(thickness_map, next, 0).x, part.x);
+    let above = mix(thickness_texel(corner), thickness_texel(vec2u(next.x, corner.y)), part.x);
+    let below = mix(thickness_texel(vec2u(corner.x, next.y)), thickness_texel(next), part.x);
     return mix(above, below, part.y);
 }
 
@@ -164,12 +169,15 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     }
     let facing = clamp(-dot(normal, direction), 0.0, 1.0);
     let bent = refract(direction, normal, refraction);
-    let through = seen_through(middle, ray, to_eye(bent), thickness_at(place), place);
+    let thickness = thickness_at(place);
+    let through = seen_through(middle, ray, to_eye(bent), thickness.x, place);
     let lit = lit_share(point);
     let left = water_left(through.w);
     let haze = 1.0 - exp(-0.75 * frame.absorption * through.w);
     let glow = vec3f(0.006, 0.120, 0.200) * mix(0.80, 1.0, lit);
     var light = mix(through.rgb * left, glow, haze);
+    let foam = 1.0 - exp(-0.40 * thickness.y / frame.spacing);
+    light = mix(light, vec3f(0.80, 0.90, 0.96) * (0.66 + 0.34 * normal.y) * mix(0.7, 1.0, lit), 0.8 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     let mirrored = reflect(direction, normal);
     var image = room(mirrored);
@@ -177,7 +185,7 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
         let seen = mirrored_scene(middle, to_eye(mirrored));
         image = mix(image, seen.rgb, seen.a);
     }
-    light = mix(light, image, fresnel);
+    light = mix(light, image, fresnel * (1.0 - 0.7 * foam));
     let shine = pow(max(dot(mirrored, sun), 0.0), 900.0);
     return light + lit * vec3f(6.0, 5.7, 5.2) * shine * (0.05 + fresnel);
 }

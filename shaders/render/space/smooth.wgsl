@@ -4,7 +4,7 @@
 // continuation of the surface is left out (narrow range: Truong and Yuksel, "A narrow-range filter for screen-space
 // fluid rendering", I3D 2018). The kernel's width follows the particles' size on the screen.
 // in:  frame, depth (negative: a side of the domain, which stays), shares of the pixel (water, a side of the domain)
-// out: the same; instance 2 k smooths along rows, 2 k + 1 along columns
+// out: the same; instance 2 k smooths along rows, 2 k + 1 along columns, the last two do both
 
 @group(2) @binding(0) var before: texture_2d<f32>;
 
@@ -14,6 +14,7 @@ struct Pass {
 }
 
 const taps = 9;              // to each side
+const clean_passes = 6u;     // from this number on
 const widest = 64.0;         // pixels
 const outline_width = 0.75;  // of the kernel that rounds the outline, spacings
 
@@ -43,17 +44,25 @@ fn add(fit: ptr<function, Fit>, x: f32, value: f32, weight: f32) {
     (*fit).t1 += weight * x * value;
 }
 
-// The line's value at 0; the mean where there is no line.
+// The line's value at 0. Steep lines through few points are held back, which would swing (ridge regression).
 fn value_of(fit: Fit) -> f32 {
-    let spread = fit.s0 * fit.s2 - fit.s1 * fit.s1;
-    if spread <= 1e-3 * fit.s0 * fit.s2 { return fit.t0 / max(fit.s0, 1e-6); }
-    return (fit.s2 * fit.t0 - fit.s1 * fit.t1) / spread;
+    let s2 = fit.s2 + 0.03 * fit.s0;
+    return (s2 * fit.t0 - fit.s1 * fit.t1) / (fit.s0 * s2 - fit.s1 * fit.s1);
+}
+
+// Largest jump that goes on with a surface, as a difference of depths near `depth`.
+fn jump_limit(depth: f32) -> f32 {
+    return 2.6 * frame.spacing * depth * depth / frame.near;
+}
+
+fn belongs(jump: f32, limit: f32) -> f32 {
+    return 1.0 - smoothstep(0.55, 1.0, abs(jump) / limit);
 }
 
 // Depth at a pixel from its row or column, reaching `reach` pixels.
 fn smoothed(pixel: vec2i, axis: vec2i, middle: f32, reach: f32) -> f32 {
     let stride = max(reach / f32(taps), 1.0);
-    let limit = 2.6 * frame.spacing * middle * middle / frame.near; // of jumps, as a difference of depths
+    let limit = jump_limit(middle);
     var fit = Fit(1.0, 0.0, 0.0, middle, 0.0);
     for (var side = -1; side <= 1; side += 2) {
         var last = middle;
@@ -63,14 +72,34 @@ fn smoothed(pixel: vec2i, axis: vec2i, middle: f32, reach: f32) -> f32 {
             if x > reach { break; }
             let depth = load(pixel + axis * side * i32(x)).x;
             let jump = depth - last;
-            if depth <= 0.0 || min(abs(jump), abs(jump - slope)) > limit { continue; }
+            let share = belongs(min(abs(jump), abs(jump - slope)), limit);
+            if depth <= 0.0 || share <= 0.0 { continue; }
             slope = clamp(jump, -2.0 * limit, 2.0 * limit);
             last = depth;
             let part = x / reach;
-            add(&fit, f32(side) * part, depth, (1.0 - part * part) * (1.0 - part * part));
+            add(&fit, f32(side) * part, depth, share * (1.0 - part * part) * (1.0 - part * part));
         }
     }
-    return value_of(fit);
+    return clamp(value_of(fit), middle - 2.0 * limit, middle + 2.0 * limit);
+}
+
+// Last passes: what rows and columns did not agree on.
+fn cleaned(pixel: vec2i, middle: f32) -> f32 {
+    let limit = 0.5 * jump_limit(middle);
+    var sum = 0.0;
+    var weight = 0.0;
+    for (var y = -2; y <= 2; y++) {
+        for (var x = -2; x <= 2; x++) {
+            // Both sides or none, so that slopes stay.
+            let one = load(pixel + vec2i(x, y)).x;
+            let other = load(pixel - vec2i(x, y)).x;
+            if min(one, other) <= 0.0 { continue; }
+            let share = belongs(one - middle, limit) * belongs(other - middle, limit) + 1e-3;
+            sum += share * 0.5 * (one + other);
+            weight += share;
+        }
+    }
+    return sum / weight;
 }
 
 // First passes: the share of water, rounded off, and a depth where there was none.
@@ -111,6 +140,7 @@ fn smooth_fragment(draw: Pass) -> @location(0) vec4f {
     if draw.number < 2u { middle = outlined(pixel, axis, middle); }
     if draw.number == 1u { middle.x = with_side(draw.place.xy, middle); }
     if middle.x <= 0.0 { return vec4f(middle, 0.0, 1.0); }
+    if draw.number >= clean_passes { return vec4f(cleaned(pixel, middle.x), middle.y, 0.0, 1.0); }
     let width = array(3.4, 2.4, 1.2)[min(draw.number >> 1u, 2u)];
     let reach = clamp(width * spacing_in_pixels(middle.x), 2.0, widest);
     return vec4f(smoothed(pixel, axis, middle.x, reach), middle.y, 0.0, 1.0);

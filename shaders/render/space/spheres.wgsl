@@ -1,4 +1,4 @@
-// spheres: every particle of fluid, walls and bodies a shaded sphere, cut exactly by its ray in perspective.
+// spheres: every particle of fluid, walls and bodies, or of water the drops that fly free, a shaded sphere, cut exactly by its ray in perspective.
 // in:  frame, color_maps, particles, shadow map
 // out: sRGB, alpha the share of the pixel that is covered; depth
 
@@ -29,10 +29,13 @@ fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     var sphere: Sphere;
     sphere.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
     let kind = particle_kind(particle);
-    if kind == HIDDEN || (kind == FLUID && frame.water != 0u) { return sphere; }
+    if kind == HIDDEN { return sphere; }
+    let drop = kind == FLUID && frame.water != 0u;
+    if drop && drop_share(particle) < 0.05 { return sphere; } // of the surface
     let point = particle_position(particle);
     let center = to_view(point);
-    let size = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
+    var size = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
+    if drop { size = drop_radius * frame.spacing * drop_share(particle); }
     if center.z - size < frame.near { return sphere; }
     let pixel = frame.pixel_size * length(center);
     let radius = max(size, 0.55 * pixel);
@@ -40,6 +43,7 @@ fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     sphere.place = project(sphere.ray);
     sphere.center = vec4f(center, radius);
     sphere.color = vec4f(to_linear(particle_color(particle, kind)), select(0.25, 1.0, kind == FLUID));
+    if drop { sphere.color = vec4f(0.62, 0.74, 0.82, 1.6); }
     sphere.light = arriving_light(point, size);
     return sphere;
 }
