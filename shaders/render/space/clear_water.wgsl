@@ -1,7 +1,7 @@
 // clear_water: the water over the scene behind it: reflection of the room, refraction, absorption on the way through,
 // the lamp's highlight.
 // in:  frame, light, surface (smoothed), thickness, the scene's depth, colours and occlusion
-// out: sRGB, every pixel
+// out: sRGB, every pixel; alpha 0 where compose is to smooth an edge
 
 @group(2) @binding(2) var surface: texture_2d<f32>;
 @group(2) @binding(3) var thickness_map: texture_2d<f32>;
@@ -102,6 +102,10 @@ fn seen_through(point: vec3f, ray: vec3f, bent: vec3f, thickness: f32, place: ve
     for (var k = 0; k < 3; k++) {
         let inside = point + bent * way;
         let ahead = scene_ahead(nearest_pixel(view_to_pixel(inside)));
+        if ahead < point.z { // that stands before the water
+            way = thickness;
+            break;
+        }
         way = clamp(way + 0.8 * (ahead - inside.z) / steep, 0.0, thickness);
     }
     var end = point + bent * way;
@@ -117,14 +121,14 @@ fn seen_through(point: vec3f, ray: vec3f, bent: vec3f, thickness: f32, place: ve
 // Linear light of the room that the water reflects: a dark hall with a soft box above and tall panels of light around.
 fn room(direction: vec3f) -> vec3f {
     let height = direction.y;
-    var light = mix(vec3f(0.020, 0.030, 0.048), vec3f(0.10, 0.155, 0.24), smoothstep(-0.10, 0.10, height));
-    light = mix(light, vec3f(0.22, 0.32, 0.46), smoothstep(0.05, 0.8, height));
+    var light = mix(vec3f(0.018, 0.028, 0.045), vec3f(0.30, 0.43, 0.60), smoothstep(-0.12, 0.10, height));
+    light = mix(light, vec3f(0.13, 0.20, 0.32), smoothstep(0.12, 0.75, height));
     let place = direction.xz / max(height, 0.05);
     let box = abs(place - vec2f(-0.40, 0.43)) - vec2f(0.62, 0.42);
     light += vec3f(2.1, 2.2, 2.3) * (1.0 - smoothstep(-0.12, 0.16, max(box.x, box.y))) * smoothstep(0.2, 0.5, height);
     let around = 2.5 * atan2(direction.x, direction.z) / 3.14159265;
     let panel = abs(fract(around + 0.15) - 0.5) - 0.20;
-    light += vec3f(0.62, 0.78, 0.98) * (1.0 - smoothstep(-0.06, 0.09, panel)) * smoothstep(0.06, 0.22, height)
+    light += vec3f(0.85, 0.98, 1.10) * (1.0 - smoothstep(-0.06, 0.09, panel)) * smoothstep(0.06, 0.22, height)
         * (1.0 - smoothstep(0.45, 0.72, height));
     return light;
 }
@@ -174,10 +178,11 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let lit = lit_share(point);
     let left = water_left(through.w);
     let haze = 1.0 - exp(-0.75 * frame.absorption * through.w);
-    let glow = vec3f(0.006, 0.120, 0.200) * mix(0.80, 1.0, lit);
+    let glow = vec3f(0.004, 0.145, 0.235) * mix(0.80, 1.0, lit);
     var light = mix(through.rgb * left, glow, haze);
     let foam = 1.0 - exp(-0.40 * thickness.y / frame.spacing);
-    light = mix(light, vec3f(0.80, 0.90, 0.96) * (0.66 + 0.34 * normal.y) * mix(0.7, 1.0, lit), 0.8 * foam);
+    let white = vec3f(0.66, 0.84, 0.94) * (0.50 + 0.50 * max(dot(normal, sun), 0.0)) * mix(0.7, 1.0, lit);
+    light = mix(light, white, 0.75 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     let mirrored = reflect(direction, normal);
     var image = room(mirrored);
@@ -190,6 +195,27 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     return light + lit * vec3f(6.0, 5.7, 5.2) * shine * (0.05 + fresnel);
 }
 
+// Whether the surface breaks off beside a pixel: where it ends, at a wave before another one, at a side of the domain.
+fn breaks_off(pixel: vec2i, depth: f32) -> bool {
+    let limit = 0.6 * frame.spacing * depth * depth / frame.near;
+    for (var k = 0u; k < 4u; k++) {
+        let step = select(vec2i(0, 1), vec2i(1, 0), k < 2u) * select(-1, 1, (k & 1u) == 1u);
+        let other = surface_at(pixel + step).x;
+        if sign(other) != sign(depth) || abs(other - depth) > limit { return true; }
+    }
+    return false;
+}
+
+// Water over the samples of a pixel that have nothing before it.
+fn over_samples(pixel: vec2u, water: vec3f, cover: f32, depth: f32) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var k = 0; k < sample_count; k++) {
+        let open = textureLoad(depths, pixel, k) < depth;
+        sum += mix(textureLoad(samples, pixel, k).rgb, water, select(0.0, cover, open));
+    }
+    return sum / f32(sample_count);
+}
+
 @fragment
 fn clear_water_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(place.xy);
@@ -198,17 +224,10 @@ fn clear_water_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let sharp = 0.9 * frame.spacing * abs(found.x) / (frame.near * frame.pixel_size);
     let cover = clamp((unpack_shares(found.y).x - 0.5) * max(sharp, 1.0) + 0.5, 0.0, 1.0);
     if found.x == 0.0 || cover <= 0.0 { return vec4f(scene, 1.0); }
-    // How much of the pixel has nothing before the water.
-    var before = 0;
-    for (var k = 0; k < sample_count; k++) { before += i32(textureLoad(depths, pixel, k) < abs(found.x)); }
-    if before == 0 { return vec4f(scene, 1.0); }
+    var open = 0;
+    for (var k = 0; k < sample_count; k++) { open += i32(textureLoad(depths, pixel, k) < abs(found.x)); }
+    if open == 0 { return vec4f(scene, 1.0); }
     let water = min(to_srgb(water_color(place.xy, found.x)), vec3f(1.0));
-    if before == sample_count { return vec4f(mix(scene, water, cover), 1.0); }
-    var sum = vec3f(0.0);
-    for (var k = 0; k < sample_count; k++) {
-        let open = textureLoad(depths, pixel, k) < abs(found.x);
-        let plain = textureLoad(samples, pixel, k).rgb;
-        sum += mix(plain, water, select(0.0, cover, open));
-    }
-    return vec4f(sum / f32(sample_count), 1.0);
+    if open < sample_count { return vec4f(over_samples(pixel, water, cover, abs(found.x)), 1.0); }
+    return vec4f(mix(scene, water, cover), select(1.0, 0.0, breaks_off(vec2i(pixel), found.x)));
 }

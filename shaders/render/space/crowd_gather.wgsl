@@ -17,5 +17,9 @@ fn crowd_gather(@builtin(global_invocation_id) id: vec3u) {
         let share = corner_share(place, corner);
         sum += share * (f32(atomicLoad(&cells[cell_index(place, corner)])) / cell_unit - share); // without itself
     }
-    crowd[particle] = sum / particles_per_cell;
+    // Behind the domain's sides there is no fluid to count.
+    let low = place - 1.0;
+    let high = (frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing) - low;
+    let room = 0.55 + 0.45 * clamp(min(low, high), vec3f(0.0), vec3f(1.0));
+    crowd[particle] = sum / (particles_per_cell * room.x * room.y * room.z);
 }

@@ -55,7 +55,7 @@ fn focus(point: vec3f) -> f32 {
 // Under water a floor of pale stone, which shows how the water bends and colours what is behind it.
 fn pale_floor(point: vec3f, lamp: f32, inside: f32, lines: f32, lit: f32) -> vec3f {
     let spot = lamp * lamp;
-    let stone = vec3f(0.008, 0.013, 0.023) + spot * vec3f(0.060, 0.082, 0.110) + inside * vec3f(0.20, 0.235, 0.26);
+    let stone = vec3f(0.008, 0.013, 0.023) + spot * vec3f(0.060, 0.082, 0.110) + inside * vec3f(0.235, 0.310, 0.360);
     return stone * (1.0 - 1.6 * lines) * lit * water_left(0.7 * shade_at(point)) * focus(point);
 }
 

@@ -6,7 +6,12 @@
 
 // How much of a particle is a drop of its own, flying free: 0 to 1.
 fn drop_share(particle: u32) -> f32 {
-    return 1.0 - smoothstep(0.07, 0.20, crowd[particle]);
+    return 1.0 - smoothstep(0.10, 0.34, crowd[particle]);
+}
+
+// Torn water is drawn thinner, or it would look like balls.
+fn body_share(particle: u32) -> f32 {
+    return mix(0.55, 1.0, smoothstep(0.12, 0.45, crowd[particle]));
 }
 
 // How much of it is white with air: where the water is torn, and fast.

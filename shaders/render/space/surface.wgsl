@@ -16,7 +16,7 @@ fn surface_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     let center = to_view(particle_position(particle));
     let drop = drop_share(particle);
     if drop > 0.98 { return ball; } // spheres draws it
-    let radius = max(surface_radius * frame.spacing * (1.0 - 0.6 * drop), 1.2 * frame.pixel_size * center.z);
+    let radius = max(surface_radius * frame.spacing * body_share(particle) * (1.0 - 0.5 * drop), 1.2 * frame.pixel_size * center.z);
     if center.z - radius < frame.near { return ball; }
     ball.ray = sphere_corner(center, radius, 0.0, vertex);
     ball.place = project(ball.ray);

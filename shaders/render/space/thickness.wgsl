@@ -17,7 +17,7 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     if particle_kind(particle) != FLUID { return blob; }
     let center = to_view(particle_position(particle));
     if center.z - frame.spacing < frame.near { return blob; }
-    let radius = max(thickness_radius * frame.spacing, 3.0 * frame.pixel_size * center.z);
+    let radius = max(thickness_radius * frame.spacing * body_share(particle), 3.0 * frame.pixel_size * center.z);
     let corner = square_corner(vertex);
     blob.place = project(center + vec3f(corner * radius, 0.0));
     blob.offset = corner;
