@@ -1,5 +1,6 @@
 // The page: one scene, one engine that runs it, and the controls around them.
 import type { Engine, FaultKind } from './engine.ts';
+import type { GpuEngine } from './engine_gpu.ts';
 import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
 import { chooseRange, Legend } from './legend.ts';
@@ -54,6 +55,7 @@ export class App implements PanelHost {
   #asked: boolean; // the user has asked for a number of particles
   #panel: Panel | null = null;
   #panelShown = true;
+  #styleAsked = false; // the user has chosen between water and particles
   #canvas: HTMLCanvasElement | null = null;
   #engineToken = {};
   #recovering = false;
@@ -381,6 +383,7 @@ export class App implements PanelHost {
     return this.engine?.kind === 'gpu' && this.store.scene.dimension === 3;
   }
   setFluidStyle(style: FluidStyle): void {
+    this.#styleAsked = true;
     if (this.drawsWater()) this.camera.view.fluidStyle = style;
     this.#showStyle();
     this.#panel?.refresh();
@@ -388,9 +391,13 @@ export class App implements PanelHost {
   toggleWater(): void {
     this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
   }
-  // Water has no colour map, and where there is none no key for it.
+  // Water has no colour map, and where there is none no key for it. A processor that plays the graphics card is too slow
+  // for it unless it is asked for.
   #showStyle(): void {
     const { classList } = document.body;
+    if (!this.#styleAsked && this.engine?.kind === 'gpu') {
+      this.camera.view.fluidStyle = (this.engine as GpuEngine).gpu.isSoftware ? FluidStyle.particles : FluidStyle.water;
+    }
     classList.toggle('may-be-water', this.drawsWater());
     classList.toggle('water', this.drawsWater() && this.fluidStyle === FluidStyle.water);
   }

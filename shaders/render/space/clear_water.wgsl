@@ -109,7 +109,12 @@ fn seen_through(point: vec3f, ray: vec3f, bent: vec3f, thickness: f32, place: ve
         way = clamp(way + 0.8 * (ahead - inside.z) / steep, 0.0, thickness);
     }
     var end = point + bent * way;
-    let behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
+    var behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
+    if behind > end.z + 2.0 * frame.spacing { // no thing is there: on to the end of the water
+        way = thickness;
+        end = point + bent * way;
+        behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
+    }
     let rest = min(behind - end.z, 40.0 * thickness + frame.spacing);
     if rest > 0.0 { end += ray * (rest / ray.z); }
     var found = view_to_pixel(end);
@@ -175,7 +180,7 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let bent = refract(direction, normal, refraction);
     let thickness = thickness_at(place);
     let through = seen_through(middle, ray, to_eye(bent), thickness.x, place);
-    let lit = lit_share(point);
+    let lit = lit_roughly(point);
     let left = water_left(through.w);
     let haze = 1.0 - exp(-0.75 * frame.absorption * through.w);
     let glow = vec3f(0.004, 0.145, 0.235) * mix(0.80, 1.0, lit);
@@ -219,15 +224,16 @@ fn over_samples(pixel: vec2u, water: vec3f, cover: f32, depth: f32) -> vec3f {
 @fragment
 fn clear_water_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let pixel = vec2u(place.xy);
-    let scene = scene_color(pixel);
     let found = surface_at(vec2i(pixel));
     let sharp = 0.9 * frame.spacing * abs(found.x) / (frame.near * frame.pixel_size);
     let cover = clamp((unpack_shares(found.y).x - 0.5) * max(sharp, 1.0) + 0.5, 0.0, 1.0);
-    if found.x == 0.0 || cover <= 0.0 { return vec4f(scene, 1.0); }
+    if found.x == 0.0 || cover <= 0.0 { return vec4f(scene_color(pixel), 1.0); }
     var open = 0;
     for (var k = 0; k < sample_count; k++) { open += i32(textureLoad(depths, pixel, k) < abs(found.x)); }
-    if open == 0 { return vec4f(scene, 1.0); }
+    if open == 0 { return vec4f(scene_color(pixel), 1.0); }
     let water = min(to_srgb(water_color(place.xy, found.x)), vec3f(1.0));
     if open < sample_count { return vec4f(over_samples(pixel, water, cover, abs(found.x)), 1.0); }
-    return vec4f(mix(scene, water, cover), select(1.0, 0.0, breaks_off(vec2i(pixel), found.x)));
+    var color = water;
+    if cover < 1.0 { color = mix(scene_color(pixel), water, cover); }
+    return vec4f(color, select(1.0, 0.0, breaks_off(vec2i(pixel), found.x)));
 }

@@ -29,6 +29,18 @@ fn lit_share(point: vec3f) -> f32 {
     return lit / max(weight, 1e-6);
 }
 
+// The same from four texels.
+fn lit_roughly(point: vec3f) -> f32 {
+    let light = to_light(point);
+    let texel = clamp(light_texel(light), vec2f(2.0), vec2f(shadow_size - 2.0));
+    var lit = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        let at = texel + 3.0 * (vec2f(f32(k & 1u), f32(k >> 1u)) - 0.5);
+        lit += 0.25 * f32(textureLoad(shadow_map, vec2u(at), 0) > min(light.z, 1.0) - 1e-3);
+    }
+    return lit;
+}
+
 fn shade_texel(at: vec2f) -> f32 {
     let last = vec2f(textureDimensions(shade_map)) - 1.0;
     return textureLoad(shade_map, vec2u(clamp(at, vec2f(0.0), last)), 0).x;

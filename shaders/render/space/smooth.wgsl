@@ -84,20 +84,19 @@ fn smoothed(pixel: vec2i, axis: vec2i, middle: f32, reach: f32) -> f32 {
 }
 
 // Last passes: what rows and columns did not agree on.
-fn cleaned(pixel: vec2i, middle: f32) -> f32 {
+fn cleaned(pixel: vec2i, middle: f32, stride: i32) -> f32 {
     let limit = 0.5 * jump_limit(middle);
-    var sum = 0.0;
-    var weight = 0.0;
-    for (var y = -2; y <= 2; y++) {
-        for (var x = -2; x <= 2; x++) {
-            // Both sides or none, so that slopes stay.
-            let one = load(pixel + vec2i(x, y)).x;
-            let other = load(pixel - vec2i(x, y)).x;
-            if min(one, other) <= 0.0 { continue; }
-            let share = belongs(one - middle, limit) * belongs(other - middle, limit) + 1e-3;
-            sum += share * 0.5 * (one + other);
-            weight += share;
-        }
+    var sum = 0.5 * middle;
+    var weight = 0.5;
+    for (var k = 13; k < 25; k++) { // half of 5 x 5, and what lies across
+        let step = stride * (vec2i(k % 5, k / 5) - 2);
+        // Both sides or none, so that slopes stay.
+        let one = load(pixel + step).x;
+        let other = load(pixel - step).x;
+        if min(one, other) <= 0.0 { continue; }
+        let share = belongs(one - middle, limit) * belongs(other - middle, limit) + 1e-3;
+        sum += share * 0.5 * (one + other);
+        weight += share;
     }
     return sum / weight;
 }
@@ -140,7 +139,10 @@ fn smooth_fragment(draw: Pass) -> @location(0) vec4f {
     if draw.number < 2u { middle = outlined(pixel, axis, middle); }
     if draw.number == 1u { middle.x = with_side(draw.place.xy, middle); }
     if middle.x <= 0.0 { return vec4f(middle, 0.0, 1.0); }
-    if draw.number >= clean_passes { return vec4f(cleaned(pixel, middle.x), middle.y, 0.0, 1.0); }
+    if draw.number >= clean_passes {
+        let wide = i32(clamp(spacing_in_pixels(middle.x) / 10.0, 1.0, 3.0));
+        return vec4f(cleaned(pixel, middle.x, select(wide, 1, draw.number > clean_passes)), middle.y, 0.0, 1.0);
+    }
     let width = array(3.4, 2.4, 1.2)[min(draw.number >> 1u, 2u)];
     let reach = clamp(width * spacing_in_pixels(middle.x), 2.0, widest);
     return vec4f(smoothed(pixel, axis, middle.x, reach), middle.y, 0.0, 1.0);
