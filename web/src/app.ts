@@ -376,7 +376,8 @@ export class App implements PanelHost {
     view.colorBy = colorBy;
     chooseRange(view, this.store.scene, this.store.document);
     this.#legend.update(this.weir, view);
-    this.setFluidStyle(FluidStyle.particles); // which alone have that colour
+    if (this.drawsWater()) this.setFluidStyle(FluidStyle.particles); // which alone have that colour
+    this.#panel?.refresh();
   }
 
   drawsWater(): boolean {
@@ -384,12 +385,12 @@ export class App implements PanelHost {
   }
   setFluidStyle(style: FluidStyle): void {
     this.#styleAsked = true;
-    if (this.drawsWater()) this.camera.view.fluidStyle = style;
+    this.camera.view.fluidStyle = style;
     this.#showStyle();
     this.#panel?.refresh();
   }
   toggleWater(): void {
-    this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
+    if (this.drawsWater()) this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
   }
   // Water has no colour map, and where there is none no key for it. A processor that plays the graphics card is too slow
   // for it unless it is asked for.

@@ -265,6 +265,7 @@ for (const kind of browsers) {
         water: document.body.classList.contains('water'), legend: getComputedStyle(document.getElementById('legend')).visibility,
         chosen: document.querySelector('select[aria-label="fluid"]').selectedOptions[0].textContent,
       }));
+      await tab.frames(1);
       await tab.evaluate(() => window.weir.setPaused(true));
       // The test's adapter is mostly one in software, which starts with particles.
       const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
