@@ -76,8 +76,8 @@ static const Effect effects[WEIR_EFFECTS] = {
         EFFECT("occlusion", space_occlusion, .target = TARGET_OCCLUSION, .textures = WEIR_TEXTURES_DEPTH),
     [WEIR_EFFECT_COMPOSE] =
         EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE, .shared = {HOLLOWS}),
-    [WEIR_EFFECT_SHADE] =
-        EFFECT("shade", space_shade, .target = TARGET_THICKNESS, .particles = true, .adds = true),
+    [WEIR_EFFECT_SHADE] = EFFECT("shade", space_shade, .target = TARGET_THICKNESS, .shared = {LIQUID},
+                                 .particles = true, .adds = true),
     [WEIR_EFFECT_SURFACE] =
         EFFECT("surface", space_surface, .target = TARGET_SURFACE, .shared = {SPHERE, LIQUID},
                .particles = true, .tests_depth = true, .writes_depth = true),

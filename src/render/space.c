@@ -194,6 +194,7 @@ static void draw_into(WeirRenderer *renderer, const WeirDrawing *drawing, WeirSp
                       WeirEffectKind kind)
 {
     WGPURenderPassColorAttachment color = cleared(renderer->space.views[texture]);
+    color.clearValue.a = 0.0; // sums begin with nothing
     draw_pass(renderer, drawing, &color, NULL, kind, kind);
 }
 

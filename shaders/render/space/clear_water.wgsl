@@ -52,7 +52,8 @@ fn scene_between(place: vec2f) -> vec3f {
 }
 
 fn thickness_texel(at: vec2u) -> vec2f {
-    return textureLoad(thickness_map, at, 0).xy;
+    let sums = textureLoad(thickness_map, at, 0);
+    return vec2f(sums.x + sums.y + sums.z, sums.w);
 }
 
 // Of water and of foam, m.
@@ -109,14 +110,12 @@ fn seen_through(point: vec3f, ray: vec3f, bent: vec3f, thickness: f32, place: ve
         way = clamp(way + 0.8 * (ahead - inside.z) / steep, 0.0, thickness);
     }
     var end = point + bent * way;
-    var behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
-    if behind > end.z + 2.0 * frame.spacing { // no thing is there: on to the end of the water
-        way = thickness;
-        end = point + bent * way;
-        behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
-    }
+    let behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
     let rest = min(behind - end.z, 40.0 * thickness + frame.spacing);
-    if rest > 0.0 { end += ray * (rest / ray.z); }
+    if rest > 0.0 {
+        end += ray * (rest / ray.z);
+        way = min(way + rest, thickness); // no thing was there: the water goes on
+    }
     var found = view_to_pixel(end);
     // Nothing that stands before the water is seen in it.
     if scene_ahead(nearest_pixel(found)) < point.z { found = place; }

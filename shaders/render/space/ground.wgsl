@@ -38,7 +38,8 @@ fn grid_lines(point: vec2f, spacing: f32) -> f32 {
 // How much the waves above gather the light at a point of the floor, 1 without waves: rays bend by a quarter of the
 // surface's slope, so their density follows from its curvature.
 fn focus(point: vec3f) -> f32 {
-    let step = 3.5 * frame.spacing;
+    let texel = 2.0 / (length(frame.light_rows[0].xyz) * f32(textureDimensions(shade_map).x));
+    let step = max(3.5 * frame.spacing, 12.0 * texel);
     let middle = shade_at(point);
     var sum = 0.0;
     for (var k = 0u; k < 8u; k++) {
@@ -49,7 +50,7 @@ fn focus(point: vec3f) -> f32 {
     // Not where the water ends at a side of the domain: that is no wave.
     let inside = min(point.xz - frame.domain_min.xz, frame.domain_max.xz - point.xz) / (6.0 * frame.spacing);
     let share = smoothstep(0.2, 1.0, min(inside.x, inside.y));
-    return mix(1.0, clamp(1.0 / max(1.0 + 0.25 * middle * curvature, 0.3), 0.65, 2.0), share);
+    return mix(1.0, clamp(1.0 / max(1.0 + 0.22 * middle * curvature, 0.3), 0.65, 2.0), share);
 }
 
 // Under water a floor of pale stone, which shows how the water bends and colours what is behind it.
@@ -61,6 +62,7 @@ fn pale_floor(point: vec3f, lamp: f32, inside: f32, lines: f32, lit: f32) -> vec
 
 @fragment
 fn ground_fragment(ground: Ground) -> @location(0) vec4f {
+    if frame.eye.y < ground.point.y { discard; } // from below one looks through it
     let side = frame.domain_max.xz - frame.domain_min.xz;
     let middle = 0.5 * (frame.domain_min.xz + frame.domain_max.xz);
     // A grid of round lengths, some ten lines along the longer side.
@@ -75,6 +77,6 @@ fn ground_fragment(ground: Ground) -> @location(0) vec4f {
     var color = (vec3f(0.0065, 0.0100, 0.0180) + lamp * vec3f(0.019, 0.028, 0.044) + inside * vec3f(0.007, 0.012, 0.019)) * lit
         + 0.085 * lines * vec3f(1.0, 1.5, 2.2) * mix(0.5, 1.0, lit) * lamp;
     if frame.water != 0u { color = pale_floor(ground.point, lamp, inside, lines, lit); }
-    let alpha = (1.0 - smoothstep(0.25, 0.95, from_middle)) * f32(frame.eye.y > ground.point.y);
+    let alpha = 1.0 - smoothstep(0.25, 0.95, from_middle);
     return vec4f(to_srgb(color) * alpha, alpha);
 }

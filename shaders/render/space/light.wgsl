@@ -43,7 +43,7 @@ fn lit_roughly(point: vec3f) -> f32 {
 
 fn shade_texel(at: vec2f) -> f32 {
     let last = vec2f(textureDimensions(shade_map)) - 1.0;
-    return textureLoad(shade_map, vec2u(clamp(at, vec2f(0.0), last)), 0).x;
+    return dot(textureLoad(shade_map, vec2u(clamp(at, vec2f(0.0), last)), 0), vec4f(1.0));
 }
 
 // Way of the light through water to a point under all of it, between four texels.

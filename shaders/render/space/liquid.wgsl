@@ -28,6 +28,11 @@ const thickness_radius = 1.7; // of the blobs that are summed up, spacings
 // sizes show the same blue.
 const water_absorption = vec3f(0.92, 0.20, 0.105);
 
+// What a particle adds to a sum in half precision: each to one of the channels, so that many small parts are not lost.
+fn spread_out(particle: u32, part: f32) -> vec4f {
+    return select(vec4f(0.0), vec4f(part), vec4u(particle % 4u) == vec4u(0u, 1u, 2u, 3u));
+}
+
 // Two shares of 0 to 1 in one number.
 fn pack_shares(shares: vec2f) -> f32 {
     return floor(shares.y * 1000.0 + 0.5) * 2.0 + shares.x;

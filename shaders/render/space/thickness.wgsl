@@ -1,13 +1,14 @@
 // thickness: how much water lies before what is behind it, at half the picture's resolution.
 // in:  frame, particles, the scene's depth
-// out: m: water, foam; added up
+// out: m: water, the sum of three channels, and foam; added up
 
 @group(2) @binding(0) var depths: texture_depth_multisampled_2d;
 
 struct Blob {
     @builtin(position) place: vec4f,
     @location(0) offset: vec2f,                  // from the centre, radii
-    @location(1) @interpolate(flat) look: vec3f, // m: peak; distance ahead; of the peak, foam
+    @location(1) @interpolate(flat) peak: vec4f, // m
+    @location(2) @interpolate(flat) ahead: f32,  // m
 }
 
 @vertex
@@ -24,7 +25,8 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     // (1 - r^2)^2 over the disc integrates to pi / 3 radii^2; the blob holds one particle's volume.
     let volume = frame.spacing * frame.spacing * frame.spacing;
     let peak = 3.0 * volume / (3.14159265 * radius * radius);
-    blob.look = vec3f(peak, center.z, peak * foam_share(particle_speed(particle), particle));
+    blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle_speed(particle), particle));
+    blob.ahead = center.z;
     return blob;
 }
 
@@ -33,6 +35,6 @@ fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
     let inside = max(1.0 - dot(blob.offset, blob.offset), 0.0);
     let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
     let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
-    let before = clamp((behind - blob.look.y) / frame.spacing + 0.5, 0.0, 1.0);
-    return vec4f(blob.look.xz * inside * inside * before, 0.0, 0.0);
+    let before = clamp((behind - blob.ahead) / frame.spacing + 0.5, 0.0, 1.0);
+    return blob.peak * inside * inside * before;
 }
