@@ -50,7 +50,7 @@ fn focus(point: vec3f) -> f32 {
     // Not where the water ends at a side of the domain: that is no wave.
     let inside = min(point.xz - frame.domain_min.xz, frame.domain_max.xz - point.xz) / (6.0 * frame.spacing);
     let share = smoothstep(0.2, 1.0, min(inside.x, inside.y));
-    return mix(1.0, clamp(1.0 / max(1.0 + 0.22 * middle * curvature, 0.3), 0.65, 2.0), share);
+    return mix(1.0, clamp(1.0 / max(1.0 + 0.22 * middle * curvature, 0.3), 0.7, 1.8), share);
 }
 
 // Under water a floor of pale stone, which shows how the water bends and colours what is behind it.

@@ -5,18 +5,21 @@
 
 const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
 
-// Share of the light that reaches a point: the mean over 6 x 6 texels.
+// Share of the light that reaches a point: the mean over 6 x 6 texels; over as many that lie farther apart where a pale
+// floor would show that what casts the shadow is made of spheres.
 fn lit_share(point: vec3f) -> f32 {
     var light = to_light(point);
     light.z = min(light.z, 1.0); // beyond the map's depth lies nothing that casts
     let texel = light_texel(light);
-    let corner = floor(texel - 2.5);
+    let spacing = 0.5 * shadow_size * frame.spacing * length(frame.light_rows[0].xyz);
+    let stride = select(1.0, max(0.35 * spacing, 1.0), frame.water != 0u);
+    let corner = select(floor(texel - 2.5), texel - 2.5 * stride, stride > 1.0);
     var lit = 0.0;
     var weight = 0.0;
     for (var y = 0; y < 6; y++) {
         for (var x = 0; x < 6; x++) {
-            let at = corner + vec2f(f32(x), f32(y));
-            let away = (at + 0.5 - texel) / 3.2;
+            let at = corner + stride * vec2f(f32(x), f32(y));
+            let away = (at + select(0.5, 0.0, stride > 1.0) - texel) / (3.2 * stride);
             let share = max(1.0 - dot(away, away), 0.0);
             if any(at < vec2f(0.0)) || any(at >= vec2f(shadow_size)) {
                 lit += share;

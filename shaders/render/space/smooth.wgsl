@@ -50,9 +50,11 @@ fn value_of(fit: Fit) -> f32 {
     return (s2 * fit.t0 - fit.s1 * fit.t1) / (fit.s0 * s2 - fit.s1 * fit.s1);
 }
 
-// Largest jump that goes on with a surface, as a difference of depths near `depth`.
+// Largest jump that goes on with a surface, as a difference of depths near `depth`. Where particles are as small as
+// pixels a surface seen at a flat angle jumps by more than a spacing from one pixel to the next.
 fn jump_limit(depth: f32) -> f32 {
-    return 2.6 * frame.spacing * depth * depth / frame.near;
+    let size = max(frame.spacing, 4.0 * frame.pixel_size * frame.near / depth);
+    return 2.6 * size * depth * depth / frame.near;
 }
 
 fn belongs(jump: f32, limit: f32) -> f32 {
