@@ -184,7 +184,7 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let haze = 1.0 - exp(-0.75 * frame.absorption * through.w);
     let glow = vec3f(0.004, 0.145, 0.235) * mix(0.80, 1.0, lit);
     var light = mix(through.rgb * left, glow, haze);
-    let foam = 1.0 - exp(-0.40 * thickness.y / frame.spacing);
+    let foam = 1.0 - exp(-0.75 * thickness.y / frame.spacing);
     let white = vec3f(0.66, 0.84, 0.94) * (0.60 + 0.50 * max(dot(normal, sun), 0.0)) * mix(0.7, 1.0, lit);
     light = mix(light, white, 0.75 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);

@@ -103,7 +103,8 @@ fn cleaned(pixel: vec2i, middle: f32, stride: i32) -> f32 {
     return sum / weight;
 }
 
-// First passes: the share of water, rounded off, and a depth where there was none.
+// First passes: the share of water, rounded off, a depth where there was none, and no gaps between spheres through which
+// the water behind them would show: they take the depth of what is nearer on both sides.
 fn outlined(pixel: vec2i, axis: vec2i, middle: vec2f) -> vec2f {
     let center = to_view(0.5 * (frame.domain_min.xyz + frame.domain_max.xyz));
     let usual = frame.near / max(center.z, 2.0 * frame.near);
@@ -112,6 +113,9 @@ fn outlined(pixel: vec2i, axis: vec2i, middle: vec2f) -> vec2f {
     var share = unpack_shares(middle.y);
     var weight = 1.0;
     var nearest = middle.x;
+    let gap = select(1e9, middle.x + 0.5 * jump_limit(middle.x), middle.x > 0.0);
+    var front_one = 0.0;
+    var front_other = 0.0;
     for (var k = 1; k <= 6; k++) {
         let x = round(f32(k) * stride);
         if x > reach { break; }
@@ -121,9 +125,12 @@ fn outlined(pixel: vec2i, axis: vec2i, middle: vec2f) -> vec2f {
         let other = load(pixel - axis * i32(x));
         share += w * (unpack_shares(one.y) + unpack_shares(other.y));
         weight += 2.0 * w;
+        if one.x > gap { front_one = max(front_one, one.x); }
+        if other.x > gap { front_other = max(front_other, other.x); }
         if nearest == 0.0 { nearest = select(other.x, one.x, abs(one.x) > abs(other.x)); }
     }
-    return vec2f(nearest, pack_shares(share / weight));
+    nearest = max(nearest, select(0.0, min(front_one, front_other), middle.x > 0.0));
+    return vec2f(select(middle.x, nearest, middle.x >= 0.0), pack_shares(share / weight));
 }
 
 // Depth at a pixel that a side of the domain is to cover, so that the water's line on it is straight.
