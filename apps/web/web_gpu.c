@@ -83,7 +83,7 @@ static void configure(WeirWebRenderer *web, uint32_t width, uint32_t height)
 }
 
 // A view as JavaScript hands it over: WEIR_WEB_VIEW floats in the order of the lines below.
-enum { WEIR_WEB_VIEW = 21 };
+enum { WEIR_WEB_VIEW = 22 };
 
 static WeirView read_view(const float v[WEIR_WEB_VIEW])
 {
@@ -103,6 +103,7 @@ static WeirView read_view(const float v[WEIR_WEB_VIEW])
         .camera_distance = v[17],
         .camera_field_of_view = v[18],
         .camera_shift = {v[19], v[20]},
+        .fluid_style = (WeirFluidStyle)v[21],
     };
 }
 

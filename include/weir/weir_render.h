@@ -1,5 +1,5 @@
 // Draws a simulation that runs on the GPU: in 2D every particle a round anti-aliased disc, in 3D a shaded sphere,
-// the fluid coloured by a quantity. All drawing reads the solver's own buffers; nothing is copied to the host.
+// the fluid coloured by a quantity; or, in 3D, the fluid as clear water with a smooth surface. All drawing reads the solver's own buffers; nothing is copied to the host.
 // Link weir_render.
 #pragma once
 
@@ -17,6 +17,12 @@ typedef enum WeirColorBy {
     WEIR_COLOR_DENSITY_ERROR, // (rho - rho0) / rho0
     WEIR_COLOR_PRESSURE,      // Pa
 } WeirColorBy;
+
+// How the fluid is drawn in 3D; in 2D this is ignored.
+typedef enum WeirFluidStyle {
+    WEIR_FLUID_PARTICLES, // shaded spheres, coloured by a quantity
+    WEIR_FLUID_WATER, // a water surface, which has no colour map: color_by, color_min and color_max are unused
+} WeirFluidStyle;
 
 // What one frame shows. Lengths in metres unless said otherwise.
 typedef struct WeirView {
@@ -36,6 +42,7 @@ typedef struct WeirView {
     float camera_distance;
     float camera_field_of_view; // rad, of the picture's height
     float camera_shift[2];      // where the target appears: 0, 0 in the middle, 1, 1 at the top right corner
+    WeirFluidStyle fluid_style;
 } WeirView;
 
 // The camera as a matrix, column by column: clip = matrix * (x, y, z, 1). Depth (clip z / clip w) is 1 at the near

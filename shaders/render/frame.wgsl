@@ -44,6 +44,8 @@ struct Frame {
     occlusion_radius: f32,       // 3D: m
     disc_radius: f32,            // 2D: of wall and body particles, pixels
     faint_sides: u32,            // 2D: bit 2 axis + (0 low, 1 high): no wall is there
+    water: u32,                  // 3D: 1 where the fluid is drawn as water
+    spacing: f32,                // 3D: of the particles, m
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

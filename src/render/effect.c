@@ -14,26 +14,46 @@ extern const char weir_wgsl_render_space_space[], weir_wgsl_render_space_shadow[
 extern const char weir_wgsl_render_space_backdrop[], weir_wgsl_render_space_ground[];
 extern const char weir_wgsl_render_space_spheres[], weir_wgsl_render_space_edges[];
 extern const char weir_wgsl_render_space_occlusion[], weir_wgsl_render_space_compose[];
+extern const char weir_wgsl_render_space_sphere[], weir_wgsl_render_space_edge[];
+extern const char weir_wgsl_render_space_light[];
+extern const char weir_wgsl_render_space_hollows[], weir_wgsl_render_space_liquid[];
+extern const char weir_wgsl_render_space_shade[], weir_wgsl_render_space_surface[];
+extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
+extern const char weir_wgsl_render_space_clear_water[], weir_wgsl_render_space_front_edges[];
 
 typedef enum Target {
     TARGET_PICTURE,   // the caller's
     TARGET_SCENE,     // several samples, with depth
     TARGET_SHADOW,    // depth only
     TARGET_OCCLUSION, // one sample, no depth
+    TARGET_COLOR,     // as the scene, one sample, no depth
+    TARGET_SURFACE,   // of water, with depth
+    TARGET_SMOOTH,    // the same without
+    TARGET_THICKNESS, // of water
+    TARGETS,
 } Target;
+
+enum { SHARED = 3 };
 
 typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
     const char *source;
     Target target;
     WeirTextures textures;
-    bool particles;   // reads them
-    bool blends;      // premultiplied colours over what is there
-    bool tests_depth; // is hidden by what is nearer
+    const char *shared[SHARED]; // texts that others have too
+    bool particles;             // reads them
+    bool blends;                // premultiplied colours over what is there
+    bool adds;                  // to what is there
+    bool tests_depth;           // is hidden by what is nearer
     bool writes_depth;
     bool covers; // alpha is the share of the samples that it covers
 } Effect;
 
+#define SPHERE                   weir_wgsl_render_space_sphere
+#define LIGHT                    weir_wgsl_render_space_light
+#define HOLLOWS                  weir_wgsl_render_space_hollows
+#define LIQUID                   weir_wgsl_render_space_liquid
+#define EDGE                     weir_wgsl_render_space_edge
 #define EFFECT(label, text, ...) {.name = label, .source = weir_wgsl_render_##text, __VA_ARGS__}
 static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_BACKGROUND] = EFFECT("background", background, .blends = false),
@@ -44,16 +64,32 @@ static const Effect effects[WEIR_EFFECTS] = {
                                   .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
-        EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_SHADOW,
-               .blends = true, .tests_depth = true, .writes_depth = true),
+        EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
+               .shared = {LIGHT, LIQUID}, .blends = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
-        EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_SHADOW,
-               .particles = true, .tests_depth = true, .writes_depth = true, .covers = true),
-    [WEIR_EFFECT_EDGES] =
-        EFFECT("edges", space_edges, .target = TARGET_SCENE, .blends = true, .tests_depth = true),
+        EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
+               .shared = {LIGHT, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
+               .writes_depth = true, .covers = true),
+    [WEIR_EFFECT_EDGES] = EFFECT("edges", space_edges, .target = TARGET_SCENE, .shared = {EDGE},
+                                 .blends = true, .tests_depth = true),
     [WEIR_EFFECT_OCCLUSION] =
-        EFFECT("occlusion", space_occlusion, .target = TARGET_OCCLUSION, .textures = WEIR_TEXTURES_OCCLUSION),
-    [WEIR_EFFECT_COMPOSE] = EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE),
+        EFFECT("occlusion", space_occlusion, .target = TARGET_OCCLUSION, .textures = WEIR_TEXTURES_DEPTH),
+    [WEIR_EFFECT_COMPOSE] =
+        EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE, .shared = {HOLLOWS}),
+    [WEIR_EFFECT_SHADE] = EFFECT("shade", space_shade, .target = TARGET_THICKNESS, .shared = {LIQUID},
+                                 .particles = true, .adds = true),
+    [WEIR_EFFECT_SURFACE] =
+        EFFECT("surface", space_surface, .target = TARGET_SURFACE, .shared = {SPHERE, LIQUID},
+               .particles = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_THICKNESS] =
+        EFFECT("thickness", space_thickness, .target = TARGET_THICKNESS, .textures = WEIR_TEXTURES_DEPTH,
+               .shared = {LIQUID}, .particles = true, .adds = true),
+    [WEIR_EFFECT_SMOOTH] = EFFECT("smooth", space_smooth, .target = TARGET_SMOOTH,
+                                  .textures = WEIR_TEXTURES_SURFACE, .shared = {LIQUID}),
+    [WEIR_EFFECT_CLEAR_WATER] = EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR,
+                                       .textures = WEIR_TEXTURES_WATER, .shared = {LIGHT, HOLLOWS, LIQUID}),
+    [WEIR_EFFECT_FRONT_EDGES] = EFFECT("front_edges", space_front_edges, .target = TARGET_COLOR,
+                                       .textures = WEIR_TEXTURES_SURFACE, .shared = {EDGE}, .blends = true),
 };
 
 WeirTextures weir_effect_textures(WeirEffectKind kind)
@@ -66,9 +102,8 @@ static WGPUStringView text_view(const char *text)
     return (WGPUStringView){.data = text, .length = strlen(text)};
 }
 
-// One shader of several texts; NULL if memory runs out.
-static WGPUShaderModule create_module(WGPUDevice device, const char *name, const char *const *parts,
-                                      size_t count)
+WGPUShaderModule weir_effect_module(WGPUDevice device, const char *name, const char *const *parts,
+                                    size_t count)
 {
     size_t length = 0;
     for (size_t k = 0; k < count; k++) length += strlen(parts[k]);
@@ -89,7 +124,7 @@ static WGPUShaderModule create_module(WGPUDevice device, const char *name, const
 
 static WGPUShaderModule effect_module(const Effect *effect, WeirMethod method, WGPUDevice device)
 {
-    const char *parts[5] = {weir_wgsl_render_frame};
+    const char *parts[5 + SHARED] = {weir_wgsl_render_frame};
     size_t count = 1;
     if (effect->particles) {
         parts[count++] = method == WEIR_METHOD_WCSPH ? weir_wgsl_render_particles_wcsph
@@ -97,14 +132,19 @@ static WGPUShaderModule effect_module(const Effect *effect, WeirMethod method, W
         parts[count++] = weir_wgsl_render_particle;
     }
     if (effect >= &effects[WEIR_EFFECT_SHADOW]) parts[count++] = weir_wgsl_render_space_space;
+    for (int k = 0; k < SHARED && effect->shared[k]; k++) parts[count++] = effect->shared[k];
     parts[count++] = effect->source;
-    return create_module(device, effect->name, parts, count);
+    return weir_effect_module(device, effect->name, parts, count);
 }
 
 static WGPUTextureFormat color_format(const Effect *effect, WGPUTextureFormat target)
 {
-    if (effect->target == TARGET_PICTURE) return target;
-    return effect->target == TARGET_SCENE ? WEIR_SCENE_FORMAT : WEIR_OCCLUSION_FORMAT;
+    static const WGPUTextureFormat formats[TARGETS] = {
+        [TARGET_SCENE] = WEIR_SCENE_FORMAT,    [TARGET_OCCLUSION] = WEIR_OCCLUSION_FORMAT,
+        [TARGET_COLOR] = WEIR_SCENE_FORMAT,    [TARGET_SURFACE] = WEIR_SURFACE_FORMAT,
+        [TARGET_SMOOTH] = WEIR_SURFACE_FORMAT, [TARGET_THICKNESS] = WEIR_THICKNESS_FORMAT,
+    };
+    return effect->target == TARGET_PICTURE ? target : formats[effect->target];
 }
 
 // The shadow map keeps what is nearest to the light at depth 0; the scene's depth falls with distance.
@@ -133,14 +173,16 @@ WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WG
     WGPUBlendComponent over = {.operation = WGPUBlendOperation_Add,
                                .srcFactor = WGPUBlendFactor_One,
                                .dstFactor = WGPUBlendFactor_OneMinusSrcAlpha};
+    if (effect->adds) over.dstFactor = WGPUBlendFactor_One;
     WGPUBlendState blend = {.color = over, .alpha = over};
     WGPUColorTargetState color = {.format = color_format(effect, target),
-                                  .blend = effect->blends ? &blend : NULL,
+                                  .blend = effect->blends || effect->adds ? &blend : NULL,
                                   .writeMask = WGPUColorWriteMask_All};
     WGPUFragmentState fragment = {
         .module = module, .entryPoint = text_view(fragment_entry), .targetCount = 1, .targets = &color};
     WGPUDepthStencilState depth = depth_state(effect);
-    bool has_depth = effect->target == TARGET_SCENE || effect->target == TARGET_SHADOW;
+    bool has_depth =
+        effect->target == TARGET_SCENE || effect->target == TARGET_SHADOW || effect->target == TARGET_SURFACE;
     WGPURenderPipelineDescriptor descriptor = {
         .label = text_view(effect->name),
         .layout = layout,

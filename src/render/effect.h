@@ -16,6 +16,13 @@ typedef enum WeirEffectKind {
     WEIR_EFFECT_EDGES,
     WEIR_EFFECT_OCCLUSION,
     WEIR_EFFECT_COMPOSE,
+    // Those of water in 3D alone:
+    WEIR_EFFECT_SHADE,
+    WEIR_EFFECT_SURFACE,
+    WEIR_EFFECT_THICKNESS,
+    WEIR_EFFECT_SMOOTH,
+    WEIR_EFFECT_CLEAR_WATER,
+    WEIR_EFFECT_FRONT_EDGES,
     WEIR_EFFECTS, // how many
 } WeirEffectKind;
 
@@ -23,16 +30,25 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_SCENE_FORMAT     WGPUTextureFormat_RGBA8Unorm   // its colours, sRGB
 #define WEIR_DEPTH_FORMAT     WGPUTextureFormat_Depth32Float // its depth, and the shadow map's
 #define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
+#define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float   // the water's depth, and its share of a pixel
+#define WEIR_THICKNESS_FORMAT WGPUTextureFormat_RGBA16Float // of water and foam, m; added up
 
 // What bind group 2 holds: nothing, or textures that effects in 3D read.
 typedef enum WeirTextures {
     WEIR_TEXTURES_NONE,
-    WEIR_TEXTURES_SHADOW,    // the shadow map
-    WEIR_TEXTURES_OCCLUSION, // the scene's depth
+    WEIR_TEXTURES_LIGHT,     // the shadow map and the water's shade
+    WEIR_TEXTURES_DEPTH,     // the scene's depth
     WEIR_TEXTURES_COMPOSE,   // depth, colour, occlusion
+    WEIR_TEXTURES_FINISH,    // the same with the water's colour
+    WEIR_TEXTURES_SURFACE,   // the water's surface
+    WEIR_TEXTURES_SURFACE_2, // the same after an odd number of passes of smoothing
+    WEIR_TEXTURES_WATER,     // all that clear_water reads
     WEIR_TEXTURE_GROUPS,
 } WeirTextures;
 
+// One shader of several texts; NULL if memory runs out.
+WGPUShaderModule weir_effect_module(WGPUDevice device, const char *name, const char *const *parts,
+                                    size_t count);
 WeirTextures weir_effect_textures(WeirEffectKind kind);
 // Builds the pipeline of one effect; `target` is the format of the picture in the end. NULL if memory runs out. Faults
 // of the shader go to the device.

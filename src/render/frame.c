@@ -59,6 +59,10 @@ WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void
         return weir_fail(message, WEIR_ERROR_INPUT, "color_by is %u; allowed are 0 to %d.",
                          (unsigned)view->color_by, WEIR_COLOR_MAPS - 1);
     }
+    if ((uint32_t)view->fluid_style > WEIR_FLUID_WATER) {
+        return weir_fail(message, WEIR_ERROR_INPUT, "fluid_style is %u; allowed are 0 and 1.",
+                         (unsigned)view->fluid_style);
+    }
     const Check shared[] = {
         {"color_min", view->color_min, false},
         {"color_max", view->color_max, false},
@@ -177,6 +181,8 @@ static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParamet
     frame->sphere_radius = view->particle_radius;
     // A little larger than half a spacing, so that walls and bodies look closed.
     frame->solid_radius = 0.68f * parameters->particle_spacing;
+    frame->spacing = parameters->particle_spacing;
+    frame->water = view->fluid_style == WEIR_FLUID_WATER;
     float size[3];
     for (int k = 0; k < 3; k++) size[k] = frame->domain_max[k] - frame->domain_min[k];
     frame->absorption = 2.6f / size[1];

@@ -7,7 +7,10 @@
 #include "gpu/gpu.h"
 #include "render/color_map.h"
 
-enum { WEIR_SHADOW_SIZE = 1024 }; // texels of the shadow map's side; space.wgsl: shadow_size
+enum {
+    WEIR_SHADOW_SIZE = 1024, // texels of the shadow map's side; space.wgsl: shadow_size
+    WEIR_SHADE_SIZE = 512,   // of the map of the water's shade
+};
 
 // Copied byte by byte to `struct Frame` of shaders/render/frame.wgsl, which says what each field means.
 typedef struct WeirFrame {
@@ -27,7 +30,8 @@ typedef struct WeirFrame {
     float quantum, sphere_radius, solid_radius, near;
     float pixel_size, light_range, absorption, occlusion_radius;
     float disc_radius;
-    uint32_t faint_sides, unused[2];
+    uint32_t faint_sides, water;
+    float spacing;
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");

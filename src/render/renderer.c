@@ -7,7 +7,7 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
 {
     WGPUBindGroupLayoutEntry frame_entries[2] = {
         {.binding = 0,
-         .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Fragment,
+         .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Fragment | WGPUShaderStage_Compute,
          .buffer = {.type = WGPUBufferBindingType_Uniform, .minBindingSize = sizeof(WeirFrame)}},
         {.binding = 1,
          .visibility = WGPUShaderStage_Vertex,
@@ -16,16 +16,16 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     };
     renderer->frame_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 2, .entries = frame_entries});
-    // Read by the vertex stage only: many phones give the fragment stage few storage buffers.
-    WGPUBindGroupLayoutEntry particle_entries[3];
-    for (uint32_t k = 0; k < 3; k++) {
+    // Not read by the fragment stage: many phones give it few storage buffers.
+    WGPUBindGroupLayoutEntry particle_entries[4];
+    for (uint32_t k = 0; k < 4; k++) {
         particle_entries[k] =
             (WGPUBindGroupLayoutEntry){.binding = k,
-                                       .visibility = WGPUShaderStage_Vertex,
+                                       .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Compute,
                                        .buffer = {.type = WGPUBufferBindingType_ReadOnlyStorage}};
     }
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
-        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = particle_entries});
+        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 4, .entries = particle_entries});
     weir_space_create_layouts(renderer, device);
     for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
         WGPUBindGroupLayout groups[3] = {renderer->frame_layout, renderer->particle_layout,
@@ -75,11 +75,12 @@ static WeirStatus prepare(WeirRenderer *renderer)
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the renderer's uniforms.");
 }
 
-static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension)
+static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension, bool water)
 {
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
     int first = dimension == 3 ? WEIR_EFFECT_SHADOW : WEIR_EFFECT_BACKGROUND;
-    int end = dimension == 3 ? WEIR_EFFECTS : WEIR_EFFECT_SHADOW;
+    int end = dimension == 3 ? WEIR_EFFECT_SHADE : WEIR_EFFECT_SHADOW;
+    if (water) end = WEIR_EFFECTS;
     bool made = false;
     for (int kind = first; kind < end; kind++) {
         WGPURenderPipeline *pipeline = &renderer->pipelines[method][kind];
@@ -113,7 +114,7 @@ static void release_group(WeirParticleGroup *slot)
 {
     if (!slot->group) return;
     wgpuBindGroupRelease(slot->group);
-    for (int k = 0; k < 3; k++) wgpuBufferRelease(slot->buffers[k]);
+    for (int k = 0; k < 4; k++) wgpuBufferRelease(slot->buffers[k]);
     *slot = (WeirParticleGroup){.group = NULL};
 }
 
@@ -142,6 +143,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
         if (layout) wgpuPipelineLayoutRelease(layout);
     }
     weir_space_release(renderer);
+    weir_crowd_release(renderer);
     if (renderer->particle_layout) wgpuBindGroupLayoutRelease(renderer->particle_layout);
     if (renderer->frame_layout) wgpuBindGroupLayoutRelease(renderer->frame_layout);
     free(renderer);
@@ -154,28 +156,33 @@ const char *weir_renderer_error(const WeirRenderer *renderer)
 
 // Bind group of these particles: a known one, or a new one in the slot that was not drawn for longest. Slots
 // not drawn for a while are given up, so that a destroyed simulation's buffers do not stay in memory.
-static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticles *particles)
+static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticles *particles,
+                                    WGPUBuffer crowd)
 {
     bool wcsph = particles->method == WEIR_METHOD_WCSPH;
-    // wcsph has two: the third binding, which its shaders do not have, gets the second one again.
-    WGPUBuffer buffers[3] = {wcsph ? particles->coordinate : particles->position,
+    // wcsph has two: the third binding, which its shaders do not have, gets the second one again, and so does the
+    // last one where nothing reads it.
+    WGPUBuffer buffers[4] = {wcsph ? particles->coordinate : particles->position,
                              wcsph ? particles->motion : particles->velocity,
-                             wcsph ? particles->motion : particles->flow};
+                             wcsph ? particles->motion : particles->flow,
+                             crowd   ? crowd
+                             : wcsph ? particles->motion
+                                     : particles->velocity};
     WeirParticleGroup *oldest = &renderer->groups[0], *found = NULL;
     for (WeirParticleGroup *slot = renderer->groups; slot < renderer->groups + WEIR_PARTICLE_GROUPS; slot++) {
         if (slot->group && slot->buffers[0] == buffers[0] && slot->buffers[1] == buffers[1] &&
-            slot->buffers[2] == buffers[2]) {
+            slot->buffers[2] == buffers[2] && slot->buffers[3] == buffers[3]) {
             found = slot;
         } else if (slot->last_frame + WEIR_PARTICLE_GROUP_FRAMES < renderer->frame_count) {
             release_group(slot);
         }
-        if (slot->last_frame < oldest->last_frame) oldest = slot;
+        if (oldest->group && (!slot->group || slot->last_frame < oldest->last_frame)) oldest = slot;
     }
     if (!found) {
         found = oldest;
         release_group(found);
-        WGPUBindGroupEntry entries[3];
-        for (uint32_t k = 0; k < 3; k++) {
+        WGPUBindGroupEntry entries[4];
+        for (uint32_t k = 0; k < 4; k++) {
             wgpuBufferAddRef(buffers[k]);
             found->buffers[k] = buffers[k];
             entries[k] = (WGPUBindGroupEntry){.binding = k, .buffer = buffers[k], .size = WGPU_WHOLE_SIZE};
@@ -183,14 +190,14 @@ static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticl
         found->group = wgpuDeviceCreateBindGroup(
             weir_gpu_wgpu_device(renderer->gpu),
             &(WGPUBindGroupDescriptor){
-                .layout = renderer->particle_layout, .entryCount = 3, .entries = entries});
+                .layout = renderer->particle_layout, .entryCount = 4, .entries = entries});
     }
     found->last_frame = renderer->frame_count;
     return found->group;
 }
 
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
-                          const WeirDrawing *drawing)
+                          WeirTextures textures, uint32_t number, const WeirDrawing *drawing)
 {
     uint32_t vertices = 4, instances = 1;
     switch (kind) {
@@ -198,12 +205,16 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     case WEIR_EFFECT_PARTICLES:
     case WEIR_EFFECT_SHADOW:
     case WEIR_EFFECT_SPHERES:
+    case WEIR_EFFECT_SHADE:
+    case WEIR_EFFECT_SURFACE:
+    case WEIR_EFFECT_THICKNESS:
         instances = drawing->particle_count;
         break;
     case WEIR_EFFECT_OVERLAY: // four sides of the outline, then the ring
         instances = drawing->frame->tool_radius > 0.0f ? 5 : 4;
         break;
     case WEIR_EFFECT_EDGES:
+    case WEIR_EFFECT_FRONT_EDGES:
         instances = 12;
         break;
     case WEIR_EFFECT_GROUND:
@@ -215,10 +226,9 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     wgpuRenderPassEncoderSetPipeline(pass, renderer->pipelines[drawing->method][kind]);
     wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
     wgpuRenderPassEncoderSetBindGroup(pass, 1, drawing->particles, 0, NULL);
-    WeirTextures textures = weir_effect_textures(kind);
     if (textures != WEIR_TEXTURES_NONE)
         wgpuRenderPassEncoderSetBindGroup(pass, 2, renderer->space.groups[textures], 0, NULL);
-    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, 0);
+    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
 }
 
 static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
@@ -233,7 +243,7 @@ static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
         &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &attachment});
     for (int kind = WEIR_EFFECT_BACKGROUND; kind <= WEIR_EFFECT_OVERLAY; kind++) {
         if (renderer->effects & 1u << kind)
-            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, drawing);
+            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, WEIR_TEXTURES_NONE, 0, drawing);
     }
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);
@@ -260,17 +270,23 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
 {
     uint32_t dimension = weir_sim_dimension(sim);
     WeirStatus status = prepare(renderer);
-    if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension);
-    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height);
+    bool water = dimension == 3 && view->fluid_style == WEIR_FLUID_WATER;
+    if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
+    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
     if (status != WEIR_OK) return status;
     WeirFrame frame;
     weir_frame_fill(&frame, sim, view, width, height, renderer->format);
-    WeirDrawing drawing = {.particles = particle_group(renderer, particles),
+    if (water) status = weir_crowd_prepare(renderer, &frame, particles->count);
+    if (status != WEIR_OK) return status;
+    WGPUBuffer crowd = water ? renderer->crowd.values : NULL;
+    WeirDrawing drawing = {.particles = particle_group(renderer, particles, crowd),
+                           .uncounted = water ? particle_group(renderer, particles, NULL) : NULL,
                            .particle_count = particles->count,
                            .method = particles->method,
                            .frame = &frame,
+                           .water = water,
                            .target = target};
-    if (!drawing.particles)
+    if (!drawing.particles || (water && !drawing.uncounted))
         return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No memory to draw the particles.");
     submit(renderer, &drawing, dimension);
     renderer->frame_count++;

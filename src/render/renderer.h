@@ -6,7 +6,7 @@
 
 // Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
 typedef struct WeirParticleGroup {
-    WGPUBuffer buffers[3]; // as bound; references held, so that no new buffer gets their address
+    WGPUBuffer buffers[4]; // as bound; references held, so that no new buffer gets their address
     WGPUBindGroup group;   // NULL: free
     uint64_t last_frame;
 } WeirParticleGroup;
@@ -19,15 +19,34 @@ typedef enum WeirSpaceTexture {
     WEIR_SPACE_DEPTH,     // its depth, as many samples
     WEIR_SPACE_COLOR,     // its colours, one per pixel
     WEIR_SPACE_OCCLUSION, // half as wide and high
+    WEIR_SPACE_SHADE,     // water between the light and the floor
+    // Those of water alone:
+    WEIR_SPACE_SURFACE,       // its depth and its share of a pixel
+    WEIR_SPACE_SURFACE_2,     // smoothing goes there and back
+    WEIR_SPACE_SURFACE_DEPTH, // what tells which sphere is nearer
+    WEIR_SPACE_THICKNESS,     // half as wide and high
+    WEIR_SPACE_WATER,         // the scene's colours with the water
     WEIR_SPACE_TEXTURES,
 } WeirSpaceTexture;
 
 typedef struct WeirSpace {
     uint32_t width, height; // of the picture that they are made for; 0: none yet
+    bool water;             // with those of water
     WGPUTexture textures[WEIR_SPACE_TEXTURES];
     WGPUTextureView views[WEIR_SPACE_TEXTURES];
     WGPUBindGroup groups[WEIR_TEXTURE_GROUPS];
 } WeirSpace;
+
+// crowd.c: how crowded it is around each particle.
+enum { WEIR_CROWD_STAGES = 2 };
+typedef struct WeirCrowd {
+    WGPUBindGroupLayout layout;
+    WGPUPipelineLayout pipeline_layout;
+    WGPUComputePipeline pipelines[WEIR_CROWD_STAGES];
+    uint32_t count, cell_count; // of particles and cells in the buffers
+    WGPUBuffer cells, values;
+    WGPUBindGroup group;
+} WeirCrowd;
 
 struct WeirRenderer {
     WeirGpu *gpu;
@@ -40,6 +59,7 @@ struct WeirRenderer {
     WGPUBindGroup frame_group;
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
     WeirSpace space;
+    WeirCrowd crowd;
     uint64_t frame_count;
     uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
     WeirMessage message;
@@ -49,9 +69,11 @@ struct WeirRenderer {
 typedef struct WeirDrawing {
     WGPUCommandEncoder encoder;
     WGPUBindGroup particles;
+    WGPUBindGroup uncounted; // the particles without what crowd.c makes; of water only
     uint32_t particle_count;
     WeirMethod method;
     const WeirFrame *frame;
+    bool water; // the fluid's style
     WGPUTextureView target;
 } WeirDrawing;
 
@@ -60,13 +82,20 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
                                         const WeirGpuParticles *particles, const WeirView *view, void *target,
                                         uint32_t width, uint32_t height);
 
-// Records one effect into a pass, with its bind groups.
+// Records one effect into a pass, with its bind groups; `textures` in place of its own. `number` is that of its first
+// instance.
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
-                          const WeirDrawing *drawing);
+                          WeirTextures textures, uint32_t number, const WeirDrawing *drawing);
+
+// crowd.c
+WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t count);
+void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
+                      uint32_t count);
+void weir_crowd_release(WeirRenderer *renderer);
 
 // space.c
 void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device);
 // Makes the textures for a picture of that size, if they are not there.
-WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height);
+WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height, bool water);
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing);
 void weir_space_release(WeirRenderer *renderer);

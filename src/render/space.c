@@ -1,28 +1,48 @@
-// A picture in 3D: shadow map, the scene with several samples per pixel, the occlusion of its hollows, and the whole.
+// A picture in 3D: shadow map, the scene with several samples per pixel, the occlusion of its hollows, the water, and
+// the whole.
 #include "render/renderer.h"
+
+// What the effects' bind group 2 holds, binding by binding; ends with WEIR_SPACE_TEXTURES.
+enum { MOST_BOUND = 9 };
+static const WeirSpaceTexture bound[WEIR_TEXTURE_GROUPS][MOST_BOUND] = {
+    [WEIR_TEXTURES_LIGHT] = {WEIR_SPACE_SHADOW, WEIR_SPACE_SHADE, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_DEPTH] = {WEIR_SPACE_DEPTH, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_COMPOSE] = {WEIR_SPACE_DEPTH, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_FINISH] = {WEIR_SPACE_DEPTH, WEIR_SPACE_WATER, WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_SURFACE] = {WEIR_SPACE_SURFACE, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_SURFACE_2] = {WEIR_SPACE_SURFACE_2, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_WATER] = {WEIR_SPACE_SHADOW, WEIR_SPACE_SHADE, WEIR_SPACE_SURFACE, WEIR_SPACE_THICKNESS,
+                             WEIR_SPACE_DEPTH, WEIR_SPACE_SAMPLES, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION,
+                             WEIR_SPACE_TEXTURES},
+};
+
+// The groups of water need its textures.
+static bool is_of_water(WeirTextures group)
+{
+    return group >= WEIR_TEXTURES_FINISH;
+}
+
+static WGPUTextureBindingLayout binding_layout(WeirSpaceTexture texture)
+{
+    bool depth = texture == WEIR_SPACE_SHADOW || texture == WEIR_SPACE_DEPTH;
+    return (WGPUTextureBindingLayout){
+        // Textures are read texel by texel: filters would need more than every device has.
+        .sampleType = depth ? WGPUTextureSampleType_Depth : WGPUTextureSampleType_UnfilterableFloat,
+        .viewDimension = WGPUTextureViewDimension_2D,
+        .multisampled = texture == WEIR_SPACE_DEPTH || texture == WEIR_SPACE_SAMPLES,
+    };
+}
 
 void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device)
 {
-    WGPUTextureBindingLayout samples = {.sampleType = WGPUTextureSampleType_Depth,
-                                        .viewDimension = WGPUTextureViewDimension_2D,
-                                        .multisampled = true};
-    WGPUTextureBindingLayout map = {.sampleType = WGPUTextureSampleType_Depth,
-                                    .viewDimension = WGPUTextureViewDimension_2D};
-    WGPUTextureBindingLayout color = {.sampleType = WGPUTextureSampleType_Float,
-                                      .viewDimension = WGPUTextureViewDimension_2D};
-    const WGPUTextureBindingLayout bound[WEIR_TEXTURE_GROUPS][3] = {
-        [WEIR_TEXTURES_SHADOW] = {map},
-        [WEIR_TEXTURES_OCCLUSION] = {samples},
-        [WEIR_TEXTURES_COMPOSE] = {samples, color, color},
-    };
-    for (int group = WEIR_TEXTURES_SHADOW; group < WEIR_TEXTURE_GROUPS; group++) {
-        WGPUBindGroupLayoutEntry entries[3];
-        uint32_t count = group == WEIR_TEXTURES_COMPOSE ? 3 : 1;
-        for (uint32_t k = 0; k < count; k++) {
-            entries[k] =
-                (WGPUBindGroupLayoutEntry){.binding = k,
+    for (int group = WEIR_TEXTURES_LIGHT; group < WEIR_TEXTURE_GROUPS; group++) {
+        WGPUBindGroupLayoutEntry entries[MOST_BOUND];
+        uint32_t count = 0;
+        for (; bound[group][count] != WEIR_SPACE_TEXTURES; count++) {
+            entries[count] =
+                (WGPUBindGroupLayoutEntry){.binding = count,
                                            .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Fragment,
-                                           .texture = bound[group][k]};
+                                           .texture = binding_layout(bound[group][count])};
         }
         renderer->texture_layouts[group] = wgpuDeviceCreateBindGroupLayout(
             device, &(WGPUBindGroupLayoutDescriptor){.entryCount = count, .entries = entries});
@@ -55,8 +75,9 @@ void weir_space_release(WeirRenderer *renderer)
     }
 }
 
-static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width, uint32_t height)
+static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width, uint32_t height, bool water)
 {
+    const uint32_t half[2] = {(width + 1) / 2, (height + 1) / 2};
     const WGPUTextureUsage drawn = WGPUTextureUsage_RenderAttachment;
     const WGPUTextureUsage read = WGPUTextureUsage_RenderAttachment | WGPUTextureUsage_TextureBinding;
     const struct {
@@ -65,12 +86,19 @@ static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width,
         uint32_t width, height, samples;
     } wanted[WEIR_SPACE_TEXTURES] = {
         [WEIR_SPACE_SHADOW] = {WEIR_DEPTH_FORMAT, read, WEIR_SHADOW_SIZE, WEIR_SHADOW_SIZE, 1},
-        [WEIR_SPACE_SAMPLES] = {WEIR_SCENE_FORMAT, drawn, width, height, WEIR_SCENE_SAMPLES},
+        [WEIR_SPACE_SAMPLES] = {WEIR_SCENE_FORMAT, water ? read : drawn, width, height, WEIR_SCENE_SAMPLES},
         [WEIR_SPACE_DEPTH] = {WEIR_DEPTH_FORMAT, read, width, height, WEIR_SCENE_SAMPLES},
         [WEIR_SPACE_COLOR] = {WEIR_SCENE_FORMAT, read, width, height, 1},
-        [WEIR_SPACE_OCCLUSION] = {WEIR_OCCLUSION_FORMAT, read, (width + 1) / 2, (height + 1) / 2, 1},
+        [WEIR_SPACE_OCCLUSION] = {WEIR_OCCLUSION_FORMAT, read, half[0], half[1], 1},
+        [WEIR_SPACE_SHADE] = {WEIR_THICKNESS_FORMAT, read, WEIR_SHADE_SIZE, WEIR_SHADE_SIZE, 1},
+        [WEIR_SPACE_SURFACE] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
+        [WEIR_SPACE_SURFACE_2] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
+        [WEIR_SPACE_SURFACE_DEPTH] = {WEIR_DEPTH_FORMAT, drawn, width, height, 1},
+        [WEIR_SPACE_THICKNESS] = {WEIR_THICKNESS_FORMAT, read, half[0], half[1], 1},
+        [WEIR_SPACE_WATER] = {WEIR_SCENE_FORMAT, read, width, height, 1},
     };
-    for (int k = 0; k < WEIR_SPACE_TEXTURES; k++) {
+    int count = water ? WEIR_SPACE_TEXTURES : WEIR_SPACE_SURFACE;
+    for (int k = 0; k < count; k++) {
         space->textures[k] = wgpuDeviceCreateTexture(
             device, &(WGPUTextureDescriptor){.usage = wanted[k].usage,
                                              .dimension = WGPUTextureDimension_2D,
@@ -88,16 +116,13 @@ static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width,
 static bool create_groups(WeirRenderer *renderer, WGPUDevice device)
 {
     WeirSpace *space = &renderer->space;
-    static const WeirSpaceTexture bound[WEIR_TEXTURE_GROUPS][3] = {
-        [WEIR_TEXTURES_SHADOW] = {WEIR_SPACE_SHADOW},
-        [WEIR_TEXTURES_OCCLUSION] = {WEIR_SPACE_DEPTH},
-        [WEIR_TEXTURES_COMPOSE] = {WEIR_SPACE_DEPTH, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION},
-    };
-    for (int group = WEIR_TEXTURES_SHADOW; group < WEIR_TEXTURE_GROUPS; group++) {
-        WGPUBindGroupEntry entries[3];
-        uint32_t count = group == WEIR_TEXTURES_COMPOSE ? 3 : 1;
-        for (uint32_t k = 0; k < count; k++) {
-            entries[k] = (WGPUBindGroupEntry){.binding = k, .textureView = space->views[bound[group][k]]};
+    for (int group = WEIR_TEXTURES_LIGHT; group < WEIR_TEXTURE_GROUPS; group++) {
+        if (is_of_water((WeirTextures)group) && !space->water) continue;
+        WGPUBindGroupEntry entries[MOST_BOUND];
+        uint32_t count = 0;
+        for (; bound[group][count] != WEIR_SPACE_TEXTURES; count++) {
+            entries[count] =
+                (WGPUBindGroupEntry){.binding = count, .textureView = space->views[bound[group][count]]};
         }
         space->groups[group] =
             wgpuDeviceCreateBindGroup(device, &(WGPUBindGroupDescriptor){
@@ -110,13 +135,14 @@ static bool create_groups(WeirRenderer *renderer, WGPUDevice device)
     return true;
 }
 
-WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height)
+WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height, bool water)
 {
     WeirSpace *space = &renderer->space;
-    if (space->width == width && space->height == height) return WEIR_OK;
+    if (space->width == width && space->height == height && space->water == water) return WEIR_OK;
     release_sized(space);
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
-    if (!create_textures(space, device, width, height) || !create_groups(renderer, device)) {
+    space->water = water;
+    if (!create_textures(space, device, width, height, water) || !create_groups(renderer, device)) {
         release_sized(space);
         return weir_fail(&renderer->message, WEIR_ERROR_MEMORY,
                          "No device memory for the textures of a picture of %u x %u pixels.", width, height);
@@ -137,8 +163,10 @@ static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing,
                                                       .colorAttachments = color,
                                                       .depthStencilAttachment = depth});
     for (int kind = (int)first; kind <= (int)last; kind++) {
+        WeirTextures textures = weir_effect_textures((WeirEffectKind)kind);
+        if (textures == WEIR_TEXTURES_COMPOSE && drawing->water) textures = WEIR_TEXTURES_FINISH;
         if (renderer->effects & 1u << kind)
-            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, drawing);
+            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, textures, 0, drawing);
     }
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);
@@ -153,22 +181,71 @@ static WGPURenderPassColorAttachment cleared(WGPUTextureView view)
                                            .clearValue = {.a = 1.0}};
 }
 
+static WGPURenderPassDepthStencilAttachment cleared_depth(WGPUTextureView view, float value)
+{
+    return (WGPURenderPassDepthStencilAttachment){.view = view,
+                                                  .depthLoadOp = WGPULoadOp_Clear,
+                                                  .depthStoreOp = WGPUStoreOp_Store,
+                                                  .depthClearValue = value};
+}
+
+// One effect alone into a texture.
+static void draw_into(WeirRenderer *renderer, const WeirDrawing *drawing, WeirSpaceTexture texture,
+                      WeirEffectKind kind)
+{
+    WGPURenderPassColorAttachment color = cleared(renderer->space.views[texture]);
+    color.clearValue.a = 0.0; // sums begin with nothing
+    draw_pass(renderer, drawing, &color, NULL, kind, kind);
+}
+
+// An even number of passes, so that the result lies where the surface was drawn.
+static void smooth_surface(WeirRenderer *renderer, const WeirDrawing *drawing)
+{
+    enum { PASSES = 8 };
+    if (!(renderer->effects & 1u << WEIR_EFFECT_SMOOTH)) return;
+    for (uint32_t k = 0; k < PASSES; k++) {
+        bool back = k % 2;
+        WGPURenderPassColorAttachment color =
+            cleared(renderer->space.views[back ? WEIR_SPACE_SURFACE : WEIR_SPACE_SURFACE_2]);
+        WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
+            drawing->encoder,
+            &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
+        weir_renderer_effect(renderer, pass, WEIR_EFFECT_SMOOTH,
+                             back ? WEIR_TEXTURES_SURFACE_2 : WEIR_TEXTURES_SURFACE, k, drawing);
+        wgpuRenderPassEncoderEnd(pass);
+        wgpuRenderPassEncoderRelease(pass);
+    }
+}
+
+// The water over the scene that has been drawn.
+static void draw_water(WeirRenderer *renderer, const WeirDrawing *drawing)
+{
+    const WGPUTextureView *views = renderer->space.views;
+    WGPURenderPassColorAttachment color = cleared(views[WEIR_SPACE_SURFACE]);
+    WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SURFACE_DEPTH], 0.0f);
+    depth.depthStoreOp = WGPUStoreOp_Discard;
+    draw_pass(renderer, drawing, &color, &depth, WEIR_EFFECT_SURFACE, WEIR_EFFECT_SURFACE);
+    draw_into(renderer, drawing, WEIR_SPACE_THICKNESS, WEIR_EFFECT_THICKNESS);
+    smooth_surface(renderer, drawing);
+    color = cleared(views[WEIR_SPACE_WATER]);
+    draw_pass(renderer, drawing, &color, NULL, WEIR_EFFECT_CLEAR_WATER, WEIR_EFFECT_FRONT_EDGES);
+}
+
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     const WGPUTextureView *views = renderer->space.views;
-    WGPURenderPassDepthStencilAttachment depth = {.view = views[WEIR_SPACE_SHADOW],
-                                                  .depthLoadOp = WGPULoadOp_Clear,
-                                                  .depthStoreOp = WGPUStoreOp_Store,
-                                                  .depthClearValue = 1.0f};
+    if (drawing->water)
+        weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
+    WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
     draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SHADOW);
+    if (drawing->water) draw_into(renderer, drawing, WEIR_SPACE_SHADE, WEIR_EFFECT_SHADE);
     WGPURenderPassColorAttachment color = cleared(views[WEIR_SPACE_SAMPLES]);
     color.resolveTarget = views[WEIR_SPACE_COLOR];
-    color.storeOp = WGPUStoreOp_Discard;
-    depth.view = views[WEIR_SPACE_DEPTH];
-    depth.depthClearValue = 0.0f;
+    if (!drawing->water) color.storeOp = WGPUStoreOp_Discard;
+    depth = cleared_depth(views[WEIR_SPACE_DEPTH], 0.0f);
     draw_pass(renderer, drawing, &color, &depth, WEIR_EFFECT_BACKDROP, WEIR_EFFECT_EDGES);
-    color = cleared(views[WEIR_SPACE_OCCLUSION]);
-    draw_pass(renderer, drawing, &color, NULL, WEIR_EFFECT_OCCLUSION, WEIR_EFFECT_OCCLUSION);
+    draw_into(renderer, drawing, WEIR_SPACE_OCCLUSION, WEIR_EFFECT_OCCLUSION);
+    if (drawing->water) draw_water(renderer, drawing);
     color = cleared(drawing->target);
     draw_pass(renderer, drawing, &color, NULL, WEIR_EFFECT_COMPOSE, WEIR_EFFECT_COMPOSE);
 }

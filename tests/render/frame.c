@@ -1,7 +1,7 @@
-// weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX [ZOOM X Y [TOOL_PRESSED]]]
+// weir_frame [--water] SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX [ZOOM X Y [TOOL_PRESSED]]]
 // Draws one frame of a scene as the page would and writes it as a PPM file, to be looked at. The time is simulated
 // on the CPU, which is quicker than a software adapter; the picture comes from the device. In 3D, X and Y are the
-// camera's yaw and pitch in degrees.
+// camera's yaw and pitch in degrees; --water draws the fluid's surface in place of spheres.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,7 +106,7 @@ static WeirView make_view(WeirSim *sim, uint32_t width, uint32_t height, int cou
     return view;
 }
 
-static int draw(WeirGpu *gpu, Shown *shown, int argc, char **argv)
+static int draw(WeirGpu *gpu, Shown *shown, WeirFluidStyle style, int argc, char **argv)
 {
     uint32_t width = (uint32_t)atoi(argv[3]), height = (uint32_t)atoi(argv[4]);
     WeirImage image;
@@ -115,6 +115,7 @@ static int draw(WeirGpu *gpu, Shown *shown, int argc, char **argv)
     }
     WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_BGRA8Unorm);
     WeirView view = make_view(shown->cpu, width, height, argc - 6, argv + 6);
+    view.fluid_style = style;
     int result = 0;
     if (weir_renderer_draw_particles(renderer, shown->cpu, &shown->particles, &view, image.view, width,
                                      height) != WEIR_OK) {
@@ -131,9 +132,16 @@ static int draw(WeirGpu *gpu, Shown *shown, int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    WeirFluidStyle style = WEIR_FLUID_PARTICLES;
+    if (argc > 1 && strcmp(argv[1], "--water") == 0) {
+        style = WEIR_FLUID_WATER;
+        argc--;
+        argv++;
+    }
     if (argc < 6) {
-        return complain("usage", "weir_frame SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX "
-                                 "[ZOOM X Y [TOOL_PRESSED]]]");
+        return complain(
+            "usage", "weir_frame [--water] SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX "
+                     "[ZOOM X Y [TOOL_PRESSED]]]");
     }
     WeirScene *scene = NULL;
     char message[512] = "no memory";
@@ -145,7 +153,7 @@ int main(int argc, char **argv)
     WeirGpu *gpu = weir_test_gpu(NULL);
     Shown shown = {.cpu = NULL};
     int result = make_state(&shown, scene, gpu, strtod(argv[5], NULL));
-    if (result == 0) result = draw(gpu, &shown, argc, argv);
+    if (result == 0) result = draw(gpu, &shown, style, argc, argv);
     release(&shown);
     weir_gpu_destroy(gpu);
     weir_scene_destroy(scene);

@@ -1,5 +1,6 @@
 // The page: one scene, one engine that runs it, and the controls around them.
 import type { Engine, FaultKind } from './engine.ts';
+import type { GpuEngine } from './engine_gpu.ts';
 import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
 import { chooseRange, Legend } from './legend.ts';
@@ -15,7 +16,7 @@ import { SceneStore } from './scene_store.ts';
 import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
 import { StatusLine } from './status.ts';
 import { Camera, watchSize } from './view.ts';
-import { ColorBy, type ParameterInfo, type Weir } from './weir.ts';
+import { ColorBy, FluidStyle, type ParameterInfo, type Weir } from './weir.ts';
 
 export type AppOptions = {
   backend: Backend;
@@ -58,6 +59,7 @@ export class App implements PanelHost {
   readonly #known = new KnownParticles(pageStore());
   #panel: Panel | null = null;
   #panelShown = true;
+  #styleAsked = false; // the user has chosen between water and particles
   #canvas: HTMLCanvasElement | null = null;
   #engineToken = {};
   #recovering = false;
@@ -296,6 +298,7 @@ export class App implements PanelHost {
     this.#showScene();
     if (this.engine) this.status.restart(performance.now(), this.engine);
     this.#rate.restart(performance.now());
+    this.#showStyle();
     this.#panel?.refresh();
   }
 
@@ -345,6 +348,9 @@ export class App implements PanelHost {
   }
   get colorBy(): ColorBy {
     return this.camera.view.colorBy;
+  }
+  get fluidStyle(): FluidStyle {
+    return this.camera.view.fluidStyle ?? FluidStyle.particles;
   }
   method(): string {
     return this.store.scene.method;
@@ -411,7 +417,31 @@ export class App implements PanelHost {
     view.colorBy = colorBy;
     chooseRange(view, this.store.scene, this.store.document);
     this.#legend.update(this.weir, view);
+    if (this.drawsWater()) this.setFluidStyle(FluidStyle.particles); // which alone have that colour
     this.#panel?.refresh();
+  }
+
+  drawsWater(): boolean {
+    return this.engine?.kind === 'gpu' && this.store.scene.dimension === 3;
+  }
+  setFluidStyle(style: FluidStyle): void {
+    this.#styleAsked = true;
+    this.camera.view.fluidStyle = style;
+    this.#showStyle();
+    this.#panel?.refresh();
+  }
+  toggleWater(): void {
+    if (this.drawsWater()) this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
+  }
+  // Water has no colour map, and where there is none no key for it. A processor that plays the graphics card is too slow
+  // for it unless it is asked for.
+  #showStyle(): void {
+    const { classList } = document.body;
+    if (!this.#styleAsked && this.engine?.kind === 'gpu') {
+      this.camera.view.fluidStyle = (this.engine as GpuEngine).gpu.isSoftware ? FluidStyle.particles : FluidStyle.water;
+    }
+    classList.toggle('may-be-water', this.drawsWater());
+    classList.toggle('water', this.drawsWater() && this.fluidStyle === FluidStyle.water);
   }
 
   setRadius(radius: number): void {
@@ -474,6 +504,7 @@ export class App implements PanelHost {
       h: () => this.togglePanel(),
       p: () => this.#showPlots(!this.plot.visible),
       v: () => this.camera.home(),
+      w: () => this.toggleWater(),
       '+': () => this.#zoom(1.15),
       '=': () => this.#zoom(1.15),
       '-': () => this.#zoom(1 / 1.15),

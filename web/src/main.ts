@@ -3,7 +3,7 @@ import { App } from './app.ts';
 import { colorNames } from './legend.ts';
 import { fetchScene, fetchSceneIndex, type SceneDocument, type SceneEntry } from './scene_document.ts';
 import type { Backend } from './start_engine.ts';
-import { Weir } from './weir.ts';
+import { FluidStyle, Weir } from './weir.ts';
 
 declare global {
   interface Window {
@@ -62,6 +62,7 @@ async function main(): Promise<void> {
   const wantedColor = query.get('color') ?? 'speed';
   const color = colorNames[wantedColor.replaceAll(/[-_+]/g, ' ')];
   if (color !== undefined) app.setColorBy(color);
+  if (color !== undefined && query.has('color')) app.setFluidStyle(FluidStyle.particles); // which alone have colours
   else app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
   if (trouble) app.notes.toast('error', trouble);
   addEventListener('error', (event) => app.notes.toast('error', event.message));

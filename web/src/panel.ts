@@ -7,7 +7,7 @@ import type { ToolName, ToolSettings } from './pointer.ts';
 import type { ParameterValue, SceneEntry } from './scene_document.ts';
 import { addSlider, sliderRange, type SliderRange } from './slider.ts';
 import type { Backend } from './start_engine.ts';
-import type { ColorBy, ParameterInfo } from './weir.ts';
+import { FluidStyle, type ColorBy, type ParameterInfo } from './weir.ts';
 
 export interface PanelHost {
   readonly parameters: ParameterInfo[];
@@ -16,6 +16,7 @@ export interface PanelHost {
   backend: Backend;
   tool: ToolSettings;
   colorBy: ColorBy;
+  fluidStyle: FluidStyle;
   method(): string;
   parameter(name: string): number[];
   particles(): number;
@@ -24,6 +25,8 @@ export interface PanelHost {
   setParticles(count: number): boolean;
   setBackend(backend: Backend): void;
   setColorBy(colorBy: ColorBy): void;
+  drawsWater(): boolean; // whether the fluid can be shown as water
+  setFluidStyle(style: FluidStyle): void;
   setRadius(radius: number): void;
   loadScene(name: string): void;
   togglePause(): void;
@@ -112,7 +115,11 @@ export class Panel {
 
   #addView(folder: FolderApi): void {
     const host = this.#host;
-    this.#addList(folder, 'colour by', colorNames, () => host.colorBy, (by) => host.setColorBy(Number(by)), 'The quantity that colours the particles.');
+    const style = this.#addList(folder, 'fluid', { water: FluidStyle.water, particles: FluidStyle.particles }, () => host.fluidStyle,
+      (next) => host.setFluidStyle(Number(next)), 'How the fluid is drawn. Also by W.');
+    this.#refreshers.push(() => (style.hidden = !host.drawsWater()));
+    this.#addList(folder, 'colour by', colorNames, () => host.colorBy, (by) => host.setColorBy(Number(by)),
+      'The quantity that colours the particles. A choice shows them in place of water.');
   }
 
   #addMethod(folder: FolderApi): void {

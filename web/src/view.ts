@@ -1,6 +1,6 @@
 // What of the domain is seen. 2D: it is fitted into the window, beside the panel where there is room. 3D: a camera that
 // turns about a point of the domain.
-import { ColorBy, type CameraPose, type Ray, type Triple, type View } from './weir.ts';
+import { ColorBy, FluidStyle, type CameraPose, type Ray, type Triple, type View } from './weir.ts';
 
 export type Insets = { left: number; right: number; top: number; bottom: number }; // CSS pixels
 export type Domain = { min: readonly number[]; max: readonly number[] };
@@ -42,6 +42,7 @@ export class Camera {
     center: [0, 0],
     pixelsPerMeter: 100,
     camera: { target: [0, 0, 0], yaw: homeYaw, pitch: homePitch, distance: 3, fieldOfView, shift: [0, 0] },
+    fluidStyle: FluidStyle.water,
   };
   width = 1; // device pixels
   height = 1;

@@ -67,6 +67,9 @@ export type CameraPose = {
   shift: [number, number]; // where the target appears: 0, 0 in the middle, 1, 1 at the top right
 };
 
+// How the fluid is drawn in 3D: coloured spheres, or clear water that shows no quantity.
+export const enum FluidStyle { particles = 0, water = 1 }
+
 // What one frame shows; as WeirView in weir/weir_render.h.
 export type View = {
   colorBy: ColorBy;
@@ -79,6 +82,7 @@ export type View = {
   center: [number, number]; // 2D: m
   pixelsPerMeter: number; // 2D: device pixels
   camera: CameraPose; // 3D
+  fluidStyle?: FluidStyle; // 3D; particles if not given
 };
 
 // How a wall or body is drawn.
@@ -91,7 +95,7 @@ export type Context = { readonly memory: WeirMemory; readonly c: WeirExports; re
 
 const DIAGNOSTIC_COUNT = 14;
 const CLOCK_COUNT = 10;
-const VIEW_FLOATS = 21; // weir_web_renderer_draw()
+const VIEW_FLOATS = 22; // weir_web_renderer_draw()
 const MAX_PASSES = 32;
 const LONGEST_PATH = 255; // as in the native loader: no path of a scene is as long
 
@@ -679,6 +683,7 @@ function writeView(to: Float32Array, view: View): void {
   to[17] = camera.distance;
   to[18] = camera.fieldOfView;
   to.set(camera.shift, 19);
+  to[21] = view.fluidStyle ?? FluidStyle.particles;
 }
 
 function triple(values: Float64Array | Float32Array, from: number): Triple {

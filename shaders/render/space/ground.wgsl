@@ -2,8 +2,6 @@
 // in:  frame, shadow map
 // out: premultiplied sRGB
 
-@group(2) @binding(0) var shadow_map: texture_depth_2d;
-
 struct Ground {
     @builtin(position) place: vec4f,
     @location(0) point: vec3f, // m
@@ -28,30 +26,6 @@ fn ground_vertex(@builtin(vertex_index) vertex: u32) -> Ground {
     return ground;
 }
 
-// Share of the light that reaches a point: the mean over 6 x 6 texels.
-fn lit_share(point: vec3f) -> f32 {
-    var light = to_light(point);
-    light.z = min(light.z, 1.0); // beyond the map's depth lies nothing that casts
-    let texel = light_texel(light);
-    let corner = floor(texel - 2.5);
-    var lit = 0.0;
-    var weight = 0.0;
-    for (var y = 0; y < 6; y++) {
-        for (var x = 0; x < 6; x++) {
-            let at = corner + vec2f(f32(x), f32(y));
-            let away = (at + 0.5 - texel) / 3.2;
-            let share = max(1.0 - dot(away, away), 0.0);
-            if any(at < vec2f(0.0)) || any(at >= vec2f(shadow_size)) {
-                lit += share;
-            } else {
-                lit += share * f32(textureLoad(shadow_map, vec2u(at), 0) > light.z - 1e-3);
-            }
-            weight += share;
-        }
-    }
-    return lit / max(weight, 1e-6);
-}
-
 // Coverage of lines `spacing` apart, whose width is about a pixel.
 fn grid_lines(point: vec2f, spacing: f32) -> f32 {
     let place = point / spacing;
@@ -61,8 +35,34 @@ fn grid_lines(point: vec2f, spacing: f32) -> f32 {
     return max(line.x, line.y);
 }
 
+// How much the waves above gather the light at a point of the floor, 1 without waves: rays bend by a quarter of the
+// surface's slope, so their density follows from its curvature.
+fn focus(point: vec3f) -> f32 {
+    let texel = 2.0 / (length(frame.light_rows[0].xyz) * f32(textureDimensions(shade_map).x));
+    let step = max(3.5 * frame.spacing, 12.0 * texel);
+    let middle = shade_at(point);
+    var sum = 0.0;
+    for (var k = 0u; k < 8u; k++) {
+        let angle = 0.78539816 * f32(k);
+        sum += shade_at(point + vec3f(cos(angle), 0.0, sin(angle)) * step);
+    }
+    let curvature = (0.5 * sum - 4.0 * middle) / (step * step);
+    // Not where the water ends at a side of the domain: that is no wave.
+    let inside = min(point.xz - frame.domain_min.xz, frame.domain_max.xz - point.xz) / (6.0 * frame.spacing);
+    let share = smoothstep(0.2, 1.0, min(inside.x, inside.y));
+    return mix(1.0, clamp(1.0 / max(1.0 + 0.22 * middle * curvature, 0.3), 0.7, 1.8), share);
+}
+
+// Under water a floor of pale stone, which shows how the water bends and colours what is behind it.
+fn pale_floor(point: vec3f, lamp: f32, inside: f32, lines: f32, lit: f32) -> vec3f {
+    let spot = lamp * lamp;
+    let stone = vec3f(0.008, 0.013, 0.023) + spot * vec3f(0.060, 0.082, 0.110) + inside * vec3f(0.235, 0.310, 0.360);
+    return stone * (1.0 - 1.6 * lines) * lit * water_left(0.7 * shade_at(point)) * focus(point);
+}
+
 @fragment
 fn ground_fragment(ground: Ground) -> @location(0) vec4f {
+    if frame.eye.y < ground.point.y { discard; } // from below one looks through it
     let side = frame.domain_max.xz - frame.domain_min.xz;
     let middle = 0.5 * (frame.domain_min.xz + frame.domain_max.xz);
     // A grid of round lengths, some ten lines along the longer side.
@@ -74,8 +74,9 @@ fn ground_fragment(ground: Ground) -> @location(0) vec4f {
     let inside = 1.0 - smoothstep(-0.004, 0.004, max(outside.x, outside.y) / max(side.x, side.y));
     let lamp = exp(-16.0 * from_middle * from_middle);
     let lit = mix(0.34, 1.0, lit_share(ground.point));
-    let color = (vec3f(0.0065, 0.0100, 0.0180) + lamp * vec3f(0.019, 0.028, 0.044) + inside * vec3f(0.007, 0.012, 0.019)) * lit
+    var color = (vec3f(0.0065, 0.0100, 0.0180) + lamp * vec3f(0.019, 0.028, 0.044) + inside * vec3f(0.007, 0.012, 0.019)) * lit
         + 0.085 * lines * vec3f(1.0, 1.5, 2.2) * mix(0.5, 1.0, lit) * lamp;
-    let alpha = (1.0 - smoothstep(0.25, 0.95, from_middle)) * f32(frame.eye.y > ground.point.y);
+    if frame.water != 0u { color = pale_floor(ground.point, lamp, inside, lines, lit); }
+    let alpha = 1.0 - smoothstep(0.25, 0.95, from_middle);
     return vec4f(to_srgb(color) * alpha, alpha);
 }

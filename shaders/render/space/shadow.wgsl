@@ -1,4 +1,4 @@
-// shadow: depth of the particles as the light sees them.
+// shadow: depth of the particles as the light sees them; water casts a shade of its own (shade.wgsl).
 // in:  frame, particles
 // out: depth, 0 nearest to the light
 
@@ -6,7 +6,7 @@
 fn shadow_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32)
     -> @builtin(position) vec4f {
     let kind = particle_kind(particle);
-    if kind == HIDDEN { return vec4f(2.0, 2.0, 2.0, 1.0); }
+    if kind == HIDDEN || (kind == FLUID && frame.water != 0u) { return vec4f(2.0, 2.0, 2.0, 1.0); }
     let light = to_light(particle_position(particle));
     let radius = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
     let texels = vec2f(length(frame.light_rows[0].xyz), length(frame.light_rows[1].xyz)) * radius;

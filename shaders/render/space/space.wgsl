@@ -26,6 +26,16 @@ fn pixel_ray(pixel: vec2f) -> vec3f {
     return vec3f((clip - frame.projection.zw) / frame.projection.xy, 1.0);
 }
 
+// Where a ray from the eye enters the domain and leaves it, in lengths of `direction` (of the world).
+fn domain_span(direction: vec3f) -> vec2f {
+    let way = select(direction, vec3f(1e-9), abs(direction) < vec3f(1e-9));
+    let one = (frame.domain_min.xyz - frame.eye.xyz) / way;
+    let other = (frame.domain_max.xyz - frame.eye.xyz) / way;
+    let enter = min(one, other);
+    let leave = max(one, other);
+    return vec2f(max(max(enter.x, enter.y), enter.z), min(min(leave.x, leave.y), leave.z));
+}
+
 // A point in the shadow map: clip x and y, depth 0 to 1.
 fn to_light(point: vec3f) -> vec3f {
     let place = vec4f(point, 1.0);

@@ -1,8 +1,6 @@
-// spheres: every particle of fluid, walls and bodies a shaded sphere, cut exactly by its ray in perspective.
+// spheres: every particle of fluid, walls and bodies, or of water the drops that fly free, a shaded sphere, cut exactly by its ray in perspective.
 // in:  frame, color_maps, particles, shadow map
 // out: sRGB, alpha the share of the pixel that is covered; depth
-
-@group(2) @binding(0) var shadow_map: texture_depth_2d;
 
 struct Sphere {
     @builtin(position) place: vec4f,
@@ -32,22 +30,20 @@ fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     sphere.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
     let kind = particle_kind(particle);
     if kind == HIDDEN { return sphere; }
+    let drop = kind == FLUID && frame.water != 0u;
+    if drop && drop_share(particle) < 0.05 { return sphere; } // of the surface
     let point = particle_position(particle);
     let center = to_view(point);
-    let size = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
+    var size = select(frame.solid_radius, frame.sphere_radius, kind == FLUID);
+    if drop { size = drop_radius * frame.spacing * drop_share(particle); }
     if center.z - size < frame.near { return sphere; }
-    let distance = length(center);
-    let pixel = frame.pixel_size * distance;
+    let pixel = frame.pixel_size * length(center);
     let radius = max(size, 0.55 * pixel);
-    // A square across the line of sight that holds the sphere's outline and a pixel more.
-    let toward = center / distance;
-    let across = normalize(cross(toward, vec3f(0.0, 1.0, 0.0)));
-    let reach = radius * inverseSqrt(max(1.0 - radius * radius / (distance * distance), 1e-3)) + pixel;
-    let corner = square_corner(vertex) * reach;
-    sphere.ray = center + across * corner.x + cross(across, toward) * corner.y;
+    sphere.ray = sphere_corner(center, radius, pixel, vertex);
     sphere.place = project(sphere.ray);
     sphere.center = vec4f(center, radius);
     sphere.color = vec4f(to_linear(particle_color(particle, kind)), select(0.25, 1.0, kind == FLUID));
+    if drop { sphere.color = vec4f(0.62, 0.74, 0.82, 1.6); }
     sphere.light = arriving_light(point, size);
     return sphere;
 }
@@ -56,8 +52,6 @@ struct Seen {
     @location(0) color: vec4f,
     @builtin(frag_depth) depth: f32,
 }
-
-const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
 
 // Linear light of a surface. `view` points to the eye.
 fn shade(color: vec3f, gloss: f32, normal: vec3f, view: vec3f, light: f32) -> vec3f {
@@ -77,12 +71,11 @@ fn spheres_fragment(sphere: Sphere) -> Seen {
     let center = sphere.center.xyz;
     let radius = sphere.center.w;
     let ray = normalize(sphere.ray);
-    let along = dot(ray, center);
-    let miss = length(center - ray * along); // of the ray from the centre
-    let pixel = frame.pixel_size * along;
-    let coverage = clamp((radius - miss) / pixel + 0.5, 0.0, 1.0);
+    let hit = hit_sphere(ray, center, radius);
+    let pixel = frame.pixel_size * hit.along;
+    let coverage = clamp((radius - hit.miss) / pixel + 0.5, 0.0, 1.0);
     if coverage <= 0.0 { discard; }
-    let place = ray * (along - sqrt(max(radius * radius - miss * miss, 0.0)));
+    let place = ray * (hit.along - hit.half);
     let normal = normalize(to_world(place - center));
     var seen: Seen;
     let color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), sphere.light);

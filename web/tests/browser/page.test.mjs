@@ -280,6 +280,54 @@ for (const kind of browsers) {
       });
     }
 
+    test('3D: water on WebGPU, particles by W, in the panel and for a colour', async () => {
+      const size = { width: 640, height: 420, deviceScaleFactor: 1 };
+      const tab = await open('backend=gpu&scene=dam_3d&particles=500', { size });
+      await tab.engine('gpu');
+      const shown = () => tab.evaluate(() => ({
+        water: document.body.classList.contains('water'), legend: getComputedStyle(document.getElementById('legend')).visibility,
+        chosen: document.querySelector('select[aria-label="fluid"]').selectedOptions[0].textContent,
+      }));
+      await tab.frames(1);
+      await tab.evaluate(() => window.weir.setPaused(true));
+      // The test's adapter is mostly one in software, which starts with particles.
+      const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
+      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
+      if (software) await tab.page.keyboard.press('w');
+      await tab.frames(3);
+      assert.deepEqual(await shown(), { water: true, legend: 'hidden', chosen: 'water' });
+      const water = await tab.pixels();
+      assert.ok(waterPixels(water) > 300, `water covers ${waterPixels(water)} pixels`);
+      await tab.page.keyboard.press('w');
+      await tab.frames(3);
+      assert.deepEqual(await shown(), { water: false, legend: 'visible', chosen: 'particles' });
+      const particles = await tab.pixels();
+      assert.ok(changedPixels(water, particles) > 500, `${changedPixels(water, particles)} pixels changed`);
+      await tab.page.select('select[aria-label="fluid"]', '0');
+      await tab.frames(3);
+      assert.deepEqual(await shown(), { water: true, legend: 'hidden', chosen: 'water' });
+      const again = await tab.pixels();
+      // The fluid may have taken some steps that were due before the pause.
+      const [same, other] = [changedPixels(water, again), changedPixels(particles, again)];
+      assert.ok(2 * same < other, `${same} pixels differ from the first picture of water, ${other} from that of particles`);
+      await tab.evaluate(() => window.weir.setColorBy(3));
+      assert.equal((await shown()).chosen, 'particles');
+      await tab.close();
+    });
+
+    test('3D: no water without WebGPU', async () => {
+      const tab = await open('backend=cpu&scene=dam_3d&particles=500');
+      await tab.frames(2);
+      const may = await tab.evaluate(() => {
+        const list = document.querySelector('select[aria-label="fluid"]');
+        return { listed: list.checkVisibility?.() ?? list.offsetParent !== null, key: getComputedStyle(document.querySelector('#keys .water')).display };
+      });
+      assert.deepEqual(may, { listed: false, key: 'none' });
+      await tab.page.keyboard.press('w');
+      assert.equal(await tab.evaluate(() => document.body.classList.contains('water')), false);
+      await tab.close();
+    });
+
     test('probes grow their plots', async () => {
       const tab = await open('backend=cpu&scene=dam_2d&particles=800');
       await tab.until('samples', () => (window.weir?.engine?.stats.probes[0]?.times.length ?? 0) > 5);

@@ -1,0 +1,30 @@
+// Shared by the passes that count particles: the grid, two spacings wide. A domain with more cells than there are is
+// folded onto them.
+
+@group(2) @binding(0) var<storage, read_write> cells: array<atomic<u32>>;
+@group(2) @binding(1) var<storage, read_write> crowd: array<f32>; // per particle
+
+const row_length = 65535u * 256u; // invocations of one row of workgroups; crowd.c
+const cell_unit = 256.0;          // of a particle, in a cell
+const particles_per_cell = 8.0;   // where the fluid is
+
+// Of a particle, in cells.
+fn cell_place(particle: u32) -> vec3f {
+    return max((particle_position(particle) - frame.domain_min.xyz) / (2.0 * frame.spacing) + 1.0, vec3f(0.0));
+}
+
+fn corner_offset(corner: u32) -> vec3u {
+    return vec3u(corner & 1u, (corner >> 1u) & 1u, corner >> 2u);
+}
+
+fn cell_index(place: vec3f, corner: u32) -> u32 {
+    let size = vec3u(ceil((frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing))) + 3u;
+    let cell = vec3u(place) + corner_offset(corner);
+    return (cell.x + size.x * (cell.y + size.y * cell.z)) % arrayLength(&cells);
+}
+
+// Share of a particle that a cell's corner gets: linear along each axis.
+fn corner_share(place: vec3f, corner: u32) -> f32 {
+    let share = select(1.0 - fract(place), fract(place), corner_offset(corner) == vec3u(1u));
+    return share.x * share.y * share.z;
+}

@@ -1,0 +1,40 @@
+// thickness: how much water lies before what is behind it, at half the picture's resolution.
+// in:  frame, particles, the scene's depth
+// out: m: water, the sum of three channels, and foam; added up
+
+@group(2) @binding(0) var depths: texture_depth_multisampled_2d;
+
+struct Blob {
+    @builtin(position) place: vec4f,
+    @location(0) offset: vec2f,                  // from the centre, radii
+    @location(1) @interpolate(flat) peak: vec4f, // m
+    @location(2) @interpolate(flat) ahead: f32,  // m
+}
+
+@vertex
+fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Blob {
+    var blob: Blob;
+    blob.place = vec4f(2.0, 2.0, 2.0, 1.0);
+    if particle_kind(particle) != FLUID { return blob; }
+    let center = to_view(particle_position(particle));
+    if center.z - frame.spacing < frame.near { return blob; }
+    let radius = max(thickness_radius * frame.spacing * body_share(particle), 3.0 * frame.pixel_size * center.z);
+    let corner = square_corner(vertex);
+    blob.place = project(center + vec3f(corner * radius, 0.0));
+    blob.offset = corner;
+    // (1 - r^2)^2 over the disc integrates to pi / 3 radii^2; the blob holds one particle's volume.
+    let volume = frame.spacing * frame.spacing * frame.spacing;
+    let peak = 3.0 * volume / (3.14159265 * radius * radius);
+    blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle_speed(particle), particle));
+    blob.ahead = center.z;
+    return blob;
+}
+
+@fragment
+fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
+    let inside = max(1.0 - dot(blob.offset, blob.offset), 0.0);
+    let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
+    let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
+    let before = clamp((behind - blob.ahead) / frame.spacing + 0.5, 0.0, 1.0);
+    return blob.peak * inside * inside * before;
+}

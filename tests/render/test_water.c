@@ -1,0 +1,284 @@
+// Pictures in 3D with the fluid as water: small ones, drawn off-screen and judged by their pixels.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "adapter.h"
+#include "common/build.h"
+#include "image.h"
+#include "render/renderer.h"
+#include "upload.h"
+
+enum { SIZE = 160 };
+
+static int start(void **state)
+{
+    *state = weir_test_gpu(NULL);
+    return 0;
+}
+
+static int end(void **state)
+{
+    weir_gpu_destroy(*state);
+    return 0;
+}
+
+// A tank of 1 m, four tenths full, on the CPU; with a body that lies half in the water.
+static WeirSim *pool(bool with_body)
+{
+    WeirScene *scene = weir_scene_create();
+    weir_scene_set_string(scene, "method", "wcsph");
+    weir_scene_set_number(scene, "dimension", 3);
+    weir_scene_set_number(scene, "parameters.particle_spacing", 0.04);
+    weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){1, 1, 1});
+    weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 0.4, 1}, (double[]){0, 0, 0});
+    if (with_body) {
+        weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.36, 0.24, 0.36}, 3);
+        weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.64, 0.56, 0.64}, 3);
+        weir_scene_set_number(scene, "bodies[0].density", 500);
+    }
+    WeirSim *sim = weir_test_sim(scene, NULL, 1);
+    weir_scene_destroy(scene);
+    return sim;
+}
+
+// From +z and above.
+static WeirView view_of(WeirFluidStyle style)
+{
+    return (WeirView){.color_by = WEIR_COLOR_SPEED,
+                      .color_max = 1.0f,
+                      .particle_radius = 0.024f,
+                      .camera_target = {0.5f, 0.4f, 0.5f},
+                      .camera_distance = 2.2f,
+                      .camera_pitch = 0.6f,
+                      .camera_field_of_view = 0.6f,
+                      .fluid_style = style};
+}
+
+static const uint32_t all = (1u << WEIR_EFFECTS) - 1;
+
+static void draw_particles(WeirGpu *gpu, WeirSim *sim, const WeirGpuParticles *particles,
+                           const WeirView *view, uint32_t effects, WeirImage *image)
+{
+    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
+    assert_non_null(renderer);
+    renderer->effects = effects;
+    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
+    if (weir_renderer_draw_particles(renderer, sim, particles, view, image->view, SIZE, SIZE) != WEIR_OK)
+        fail_msg("%s", weir_renderer_error(renderer));
+    assert_true(weir_image_read(image));
+    weir_renderer_destroy(renderer);
+    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
+}
+
+static void draw(WeirGpu *gpu, WeirSim *sim, const WeirView *view, WeirImage *image)
+{
+    WeirGpuParticles particles;
+    assert_true(weir_upload(gpu, sim, &particles));
+    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_upload_release(&particles);
+}
+
+// One particle alone; group EMPTY: none at all.
+static void draw_one(WeirGpu *gpu, WeirSim *sim, uint32_t group, const WeirView *view, uint32_t effects,
+                     WeirImage *image)
+{
+    const WeirConstants *constants = weir_sim_constants(sim);
+    int32_t coordinate[1][4] = {{0, 0, 0, (int32_t)group}};
+    float motion[1][4] = {{0}};
+    for (int k = 0; k < 3; k++)
+        coordinate[0][k] =
+            (int32_t)lroundf((view->camera_target[k] - constants->origin[k]) / constants->quantum);
+    WeirGpuParticles particles;
+    assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
+    draw_particles(gpu, sim, &particles, view, effects, image);
+    weir_upload_release(&particles);
+}
+
+// The pixel that shows a point of the tank.
+static const uint8_t *pixel_at(const WeirImage *image, const WeirView *view, float x, float y, float z)
+{
+    float matrix[16], clip[4], point[4] = {x, y, z, 1.0f};
+    weir_view_matrix(view, SIZE, SIZE, matrix);
+    for (int row = 0; row < 4; row++) {
+        clip[row] = 0.0f;
+        for (int column = 0; column < 4; column++) clip[row] += matrix[4 * column + row] * point[column];
+    }
+    uint32_t column = (uint32_t)((clip[0] / clip[3] + 1.0f) * SIZE / 2);
+    uint32_t row = (uint32_t)((1.0f - clip[1] / clip[3]) * SIZE / 2);
+    assert_true(column < SIZE && row < SIZE);
+    return image->pixels + 4 * ((size_t)row * SIZE + column);
+}
+
+static int difference(const uint8_t *a, const uint8_t *b)
+{
+    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
+}
+
+// Mean difference, of three channels, of pixels beside each other in the middle of the pool's surface.
+static double unevenness(const WeirImage *image, const WeirView *view)
+{
+    const uint8_t *middle = pixel_at(image, view, 0.5f, 0.4f, 0.5f);
+    double sum = 0.0;
+    int count = 0;
+    for (int y = -10; y < 10; y++) {
+        for (int x = -20; x < 20; x++) {
+            const uint8_t *pixel = middle + 4 * (y * SIZE + x);
+            sum += difference(pixel, pixel + 4) + difference(pixel, pixel + (ptrdiff_t)4 * SIZE);
+            count += 2;
+        }
+    }
+    return sum / count;
+}
+
+static void water_is_blue_and_even(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirView water = view_of(WEIR_FLUID_WATER), spheres = view_of(WEIR_FLUID_PARTICLES);
+    WeirImage smooth, bumpy;
+    draw(*state, sim, &water, &smooth);
+    draw(*state, sim, &spheres, &bumpy);
+    const uint8_t *seen = pixel_at(&smooth, &water, 0.5f, 0.4f, 0.5f);
+    assert_true(seen[2] > seen[0] + 30 && seen[1] > seen[0]); // blue-green
+    assert_true(difference(seen, pixel_at(&bumpy, &spheres, 0.5f, 0.4f, 0.5f)) > 20);
+    double even = unevenness(&smooth, &water), uneven = unevenness(&bumpy, &spheres);
+    if (!(even < 6.0 && even < 0.12 * uneven)) fail_msg("water varies by %g, spheres by %g", even, uneven);
+    weir_image_destroy(&smooth);
+    weir_image_destroy(&bumpy);
+    weir_sim_destroy(sim);
+}
+
+// Its upper half as it is; its lower half through the water, darker and bluer, but there.
+static void a_body_is_seen_in_and_above_the_water(void **state)
+{
+    WeirSim *with = pool(true), *without = pool(false);
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_pitch = 0.2f;
+    WeirImage body, plain;
+    draw(*state, with, &view, &body);
+    draw(*state, without, &view, &plain);
+    const uint8_t *above = pixel_at(&body, &view, 0.5f, 0.52f, 0.64f);
+    assert_true(above[0] > above[2] + 25); // warm
+    const uint8_t *below = pixel_at(&body, &view, 0.5f, 0.30f, 0.64f);
+    assert_true(difference(below, pixel_at(&plain, &view, 0.5f, 0.30f, 0.64f)) > 25);
+    assert_true(below[2] - below[0] > above[2] - above[0] + 25);
+    weir_image_destroy(&body);
+    weir_image_destroy(&plain);
+    weir_sim_destroy(with);
+    weir_sim_destroy(without);
+}
+
+// The body's upper half hides the pool behind it: the same colour with water and without.
+static void what_stands_before_the_water_hides_it(void **state)
+{
+    WeirSim *sim = pool(true);
+    WeirView water = view_of(WEIR_FLUID_WATER), spheres = view_of(WEIR_FLUID_PARTICLES);
+    WeirImage one, other;
+    draw(*state, sim, &water, &one);
+    draw(*state, sim, &spheres, &other);
+    for (int k = 0; k < 5; k++) {
+        float x = 0.42f + 0.04f * (float)k;
+        assert_true(difference(pixel_at(&one, &water, x, 0.58f, 0.5f),
+                               pixel_at(&other, &spheres, x, 0.58f, 0.5f)) < 24);
+    }
+    weir_image_destroy(&one);
+    weir_image_destroy(&other);
+    weir_sim_destroy(sim);
+}
+
+static void no_fluid_no_water(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    const uint32_t water = 1u << WEIR_EFFECT_SHADE | 1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_THICKNESS |
+                           1u << WEIR_EFFECT_SMOOTH;
+    WeirImage empty, scene;
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &empty);
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all & ~water, &scene);
+    assert_memory_equal(empty.pixels, scene.pixels, (size_t)4 * SIZE * SIZE);
+    weir_image_destroy(&empty);
+    weir_image_destroy(&scene);
+    weir_sim_destroy(sim);
+}
+
+// A particle that flies alone is a bright drop, smaller than its sphere.
+static void a_lonely_particle_is_a_drop(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_distance = 0.6f;
+    WeirImage drop, plain;
+    draw_one(*state, sim, WEIR_GROUP_FLUID, &view, all, &drop);
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &plain);
+    uint32_t covered = 0;
+    for (uint32_t k = 0; k < SIZE * SIZE; k++)
+        covered += difference(drop.pixels + 4 * k, plain.pixels + 4 * k) > 60;
+    double across = 2.0 * sqrt(covered / 3.14159265); // pixels
+    double sphere = 0.04 / (0.6 * 2.0 * tan(0.3)) * SIZE;
+    assert_true(across > 0.3 * sphere && across < sphere);
+    const uint8_t *middle = drop.pixels + (size_t)4 * (SIZE / 2 * SIZE + SIZE / 2);
+    assert_true(middle[0] > 100 && middle[2] > 120);
+    weir_image_destroy(&drop);
+    weir_image_destroy(&plain);
+    weir_sim_destroy(sim);
+}
+
+// One renderer, both styles and several sizes in turn: textures and pipelines come and go, and the picture stays.
+static void styles_and_sizes_change(void **state)
+{
+    WeirGpu *gpu = *state;
+    WeirSim *sim = pool(false);
+    WeirGpuParticles particles;
+    assert_true(weir_upload(gpu, sim, &particles));
+    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
+    const struct {
+        uint32_t width, height;
+        WeirFluidStyle style;
+    } frames[] = {{64, 48, WEIR_FLUID_WATER},
+                  {64, 48, WEIR_FLUID_PARTICLES},
+                  {1, 1, WEIR_FLUID_WATER},
+                  {97, 33, WEIR_FLUID_WATER},
+                  {64, 48, WEIR_FLUID_WATER}};
+    enum { FRAMES = sizeof frames / sizeof *frames };
+    WeirImage images[FRAMES];
+    for (int k = 0; k < FRAMES; k++) {
+        WeirView view = view_of(frames[k].style);
+        assert_true(weir_image_create(&images[k], gpu, WGPUTextureFormat_RGBA8Unorm, frames[k].width,
+                                      frames[k].height));
+        assert_int_equal(weir_renderer_draw_particles(renderer, sim, &particles, &view, images[k].view,
+                                                      frames[k].width, frames[k].height),
+                         WEIR_OK);
+        assert_true(weir_image_read(&images[k]));
+    }
+    assert_memory_equal(images[0].pixels, images[FRAMES - 1].pixels, (size_t)4 * 64 * 48);
+    assert_memory_not_equal(images[0].pixels, images[1].pixels, (size_t)4 * 64 * 48);
+    for (int k = 0; k < FRAMES; k++) weir_image_destroy(&images[k]);
+    weir_renderer_destroy(renderer);
+    weir_upload_release(&particles);
+    weir_sim_destroy(sim);
+    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
+}
+
+static void unknown_styles_are_refused(void **state)
+{
+    (void)state;
+    WeirView view = view_of((WeirFluidStyle)2);
+    WeirMessage message = {0};
+    int target = 0;
+    assert_int_equal(weir_frame_check(&view, 3, &target, 8, 8, &message), WEIR_ERROR_INPUT);
+    CHECK_CONTAINS(message.text, "fluid_style is 2");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(water_is_blue_and_even),
+        cmocka_unit_test(a_body_is_seen_in_and_above_the_water),
+        cmocka_unit_test(what_stands_before_the_water_hides_it),
+        cmocka_unit_test(no_fluid_no_water),
+        cmocka_unit_test(a_lonely_particle_is_a_drop),
+        cmocka_unit_test(styles_and_sizes_change),
+        cmocka_unit_test(unknown_styles_are_refused),
+    };
+    return cmocka_run_group_tests_name("render: water in 3D", tests, start, end);
+}
