@@ -1,6 +1,6 @@
 // The page: one scene, one engine that runs it, and the controls around them.
 import type { Engine, FaultKind } from './engine.ts';
-import type { GpuEngine } from './engine_gpu.ts';
+import { GpuEngine } from './engine_gpu.ts';
 import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
 import { chooseRange, Legend } from './legend.ts';
@@ -9,9 +9,8 @@ import { Panel, type PanelHost } from './panel.ts';
 import { Plot } from './plot.ts';
 import { ProbePlots } from './probe_plots.ts';
 import { Pointer, type ToolSettings } from './pointer.ts';
-import { KnownParticles, pageStore, RunRate } from './real_time.ts';
+import { isSlowMotion, KnownCards, pageStore, RunRate, stepsFit } from './real_time.ts';
 import { fetchScene, parseScene, withParameters, type ParameterValue, type SceneDocument, type SceneEntry } from './scene_document.ts';
-import { GpuEngine } from './engine_gpu.ts';
 import { SceneStore } from './scene_store.ts';
 import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
 import { StatusLine } from './status.ts';
@@ -56,7 +55,7 @@ export class App implements PanelHost {
   readonly #stage = element('stage');
   #asked: boolean; // the user has asked for this number of particles
   readonly #rate = new RunRate();
-  readonly #known = new KnownParticles(pageStore());
+  readonly #known = new KnownCards(pageStore());
   #panel: Panel | null = null;
   #panelShown = true;
   #styleAsked = false; // the user has chosen between water and particles
@@ -233,13 +232,25 @@ export class App implements PanelHost {
     return this.engine instanceof GpuEngine && !this.engine.gpu.isSoftware;
   }
 
-  // What a graphics card moves in slow motion starts again with as many particles as it moves in real time.
+  // What a graphics card shows in slow motion is drawn as plain particles, if drawing is what takes too long, or starts again
+  // with as many particles as it moves in real time.
   #keepRealTime(now: number, engine: Engine): void {
     const { scene, derived } = this.store;
     if (this.paused || document.hidden) this.#rate.restart(now);
     const factor = this.#rate.update(now, engine.stats.time);
     if (factor === null || this.#asked || scene.method !== 'wcsph' || !this.#isCard()) return;
-    const aimed = factor / (scene.parameter('time_scale')[0] ?? 1);
+    const timeScale = scene.parameter('time_scale')[0] ?? 1;
+    const aimed = factor / timeScale;
+    const timeStep = (1000 * (engine.stats.clock?.timeStep ?? 0)) / timeScale;
+    const isWater = this.drawsWater() && this.fluidStyle === FluidStyle.water;
+    if (isSlowMotion(aimed) && isWater && !this.#styleAsked && stepsFit(timeStep, engine.stats.stepMs, this.#interval)) {
+      this.#known.noteTooSlowForWater(engine.device);
+      this.#showStyle();
+      this.#panel?.refresh();
+      this.#rate.restart(now);
+      this.notes.toast('info', `Particles instead of water, which this graphics card draws too slowly: ${formatNumber(aimed, 2)} of real time. W shows it.`);
+      return;
+    }
     const fewer = this.#known.note(engine.device, this.sceneName, derived.particles, aimed, scene.dimension);
     if (fewer === 0) return;
     const words = this.#thin(Math.max(fewer, cpuParticles[scene.dimension === 3 ? 3 : 2]));
@@ -438,7 +449,8 @@ export class App implements PanelHost {
   #showStyle(): void {
     const { classList } = document.body;
     if (!this.#styleAsked && this.engine?.kind === 'gpu') {
-      this.camera.view.fluidStyle = (this.engine as GpuEngine).gpu.isSoftware ? FluidStyle.particles : FluidStyle.water;
+      const isWater = this.#isCard() && this.#known.drawsWater(this.engine.device);
+      this.camera.view.fluidStyle = isWater ? FluidStyle.water : FluidStyle.particles;
     }
     classList.toggle('may-be-water', this.drawsWater());
     classList.toggle('water', this.drawsWater() && this.fluidStyle === FluidStyle.water);

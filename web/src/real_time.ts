@@ -1,5 +1,5 @@
-// How many particles of a scene a graphics card moves in real time: measured in the first seconds of a run, kept for the next
-// visit. So a page shows slow motion for a moment once, and not at all when it comes back.
+// What of a scene a graphics card shows in real time: water or plain particles, and how many of them. Measured in the first
+// seconds of a run, kept for the next visit. So a page shows slow motion for a moment once, and not at all when it comes back.
 
 const settleMs = 1200; // of a run, in which the pace finds its steps
 const windowMs = 2000;
@@ -14,6 +14,11 @@ export function particlesInRealTime(particles: number, factor: number, dimension
   const unit = 10 ** Math.max(Math.floor(Math.log10(Math.max(wanted, 1))) - 1, 0);
   return Math.floor(wanted / unit) * unit;
 }
+
+// Whether the steps of a frame would leave time for drawing: if a run is slow all the same, drawing is what takes too long.
+// Lengths and times of steps in ms.
+export const stepsFit = (timeStep: number, stepMs: number, intervalMs: number): boolean =>
+  timeStep > 0 && stepMs > 0 && (intervalMs / timeStep) * stepMs < 0.6 * intervalMs;
 
 export const isSlowMotion = (factor: number): boolean => factor < slowMotion;
 
@@ -43,8 +48,8 @@ export class RunRate {
 
 type Store = Pick<Storage, 'getItem' | 'setItem'>;
 
-// Numbers of particles by card and scene.
-export class KnownParticles {
+// What is known of cards: numbers of particles by scene, and which ones are too slow for water.
+export class KnownCards {
   readonly #store: Store | null;
 
   constructor(store: Store | null) {
@@ -53,33 +58,45 @@ export class KnownParticles {
 
   // 0: nothing is known.
   recall(card: string, scene: string): number {
-    try {
-      const known = Number(this.#store?.getItem(key(card, scene)));
-      return Number.isFinite(known) && known >= 1 ? known : 0;
-    } catch {
-      return 0;
-    }
+    const known = Number(this.#read(particlesKey(card, scene)));
+    return Number.isFinite(known) && known >= 1 ? known : 0;
+  }
+
+  drawsWater(card: string): boolean {
+    return this.#read(plainKey(card)) === '';
+  }
+  noteTooSlowForWater(card: string): void {
+    this.#keep(plainKey(card), 'too slow');
   }
 
   // That many ran at `factor` of real time. Gives the number to run instead, 0 for none.
   note(card: string, scene: string, particles: number, factor: number, dimension: number): number {
     const fewer = isSlowMotion(factor) ? Math.max(particlesInRealTime(particles, factor, dimension), 1) : 0;
     const known = this.recall(card, scene);
-    if (fewer > 0) this.#keep(card, scene, fewer);
-    else if (known > 0 && factor > aim) this.#keep(card, scene, Math.round(growth * Math.max(known, particles)));
+    const more = known > 0 && factor > aim ? Math.round(growth * Math.max(known, particles)) : 0;
+    if (fewer > 0 || more > 0) this.#keep(particlesKey(card, scene), String(fewer || more));
     return fewer;
   }
 
-  #keep(card: string, scene: string, particles: number): void {
+  #read(name: string): string {
     try {
-      this.#store?.setItem(key(card, scene), String(particles));
+      return this.#store?.getItem(name) ?? '';
+    } catch {
+      return '';
+    }
+  }
+
+  #keep(name: string, value: string): void {
+    try {
+      this.#store?.setItem(name, value);
     } catch {
       // A full or forbidden store: measured anew at the next visit.
     }
   }
 }
 
-const key = (card: string, scene: string): string => `weir.particles ${scene} ${card}`;
+const particlesKey = (card: string, scene: string): string => `weir.particles ${scene} ${card}`;
+const plainKey = (card: string): string => `weir.water ${card}`;
 
 // null where a page may keep nothing.
 export function pageStore(): Store | null {

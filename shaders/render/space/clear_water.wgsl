@@ -13,6 +13,7 @@
 const refraction = 0.752; // 1 / 1.33
 const sample_count = 4;
 const mirror_steps = 24;
+const least_mirrored = 0.035; // of the light: below, nobody sees what of the scene is in it
 
 @vertex
 fn clear_water_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
@@ -190,7 +191,7 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     let mirrored = reflect(direction, normal);
     var image = room(mirrored);
-    if depth > 0.0 {
+    if depth > 0.0 && fresnel > least_mirrored {
         let seen = mirrored_scene(middle, to_eye(mirrored));
         image = mix(image, seen.rgb, seen.a);
     }

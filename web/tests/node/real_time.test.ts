@@ -1,7 +1,7 @@
 // How the page finds the number of particles that a graphics card moves in real time.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { isSlowMotion, KnownParticles, particlesInRealTime, RunRate } from '../../src/real_time.ts';
+import { isSlowMotion, KnownCards, particlesInRealTime, RunRate, stepsFit } from '../../src/real_time.ts';
 
 const memory = () => {
   const kept = new Map<string, string>();
@@ -23,7 +23,7 @@ test('the number that it gives runs in real time', () => {
     }
   }
   assert.equal(particlesInRealTime(100_000, 0.2, 3), 31_000); // two digits
-  assert.equal(new KnownParticles(null).note('card', 'dam', 70_000, 0, 3), 1); // not one step in all the time
+  assert.equal(new KnownCards(null).note('card', 'dam', 70_000, 0, 3), 1); // not one step in all the time
 });
 
 test('a run is measured once, after it has settled', () => {
@@ -46,7 +46,7 @@ test('a run is measured once, after it has settled', () => {
 });
 
 test('slow motion is remembered by card and scene, and a card with time to spare is given more', () => {
-  const known = new KnownParticles(memory());
+  const known = new KnownCards(memory());
   assert.equal(known.recall('card', 'dam'), 0);
   assert.equal(known.note('card', 'dam', 70_000, 1, 3), 0);
   assert.equal(known.recall('card', 'dam'), 0, 'nothing to remember');
@@ -62,11 +62,22 @@ test('slow motion is remembered by card and scene, and a card with time to spare
   assert.ok(known.recall('card', 'dam') > fewer);
 });
 
+test('where the steps of a frame fit, drawing is what is slow', () => {
+  assert.ok(stepsFit(0.4, 0.19, 16.7)); // 8 ms of 16.7
+  assert.ok(!stepsFit(0.4, 0.3, 16.7));
+  assert.ok(!stepsFit(0, 0.3, 16.7) && !stepsFit(0.4, 0, 16.7), 'not known');
+  const known = new KnownCards(memory());
+  assert.ok(known.drawsWater('card'));
+  known.noteTooSlowForWater('card');
+  assert.ok(!known.drawsWater('card') && known.drawsWater('other card'));
+});
+
 test('a store that is missing, full or broken is no fault', () => {
   const broken = { getItem: () => { throw new Error('no'); }, setItem: () => { throw new Error('full'); } };
   for (const store of [null, broken, { getItem: () => 'nonsense', setItem: () => undefined }]) {
-    const known = new KnownParticles(store);
+    const known = new KnownCards(store);
     assert.equal(known.recall('card', 'dam'), 0);
     assert.ok(known.note('card', 'dam', 70_000, 0.3, 3) > 0);
+    known.noteTooSlowForWater('card');
   }
 });
