@@ -12,8 +12,6 @@ static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowa
 static const double list_margin = 1.25;
 // Longer lists cannot be meant: 8 entries each.
 static const double most_parts = 4096.0;
-// In 2D lists only pay while they fit the device's cache, or are short.
-static const double most_pairs_of_lists_2d = 1e7, short_list_2d = 25.0;
 // Sorting takes five dispatches, with emitters seven, even if there is nothing to do: below so many pairs it is offered
 // as seldom as layers of emitters allow.
 static const double pairs_for_every_step = 2e7;
@@ -75,16 +73,13 @@ static bool share_lists(WeirWcsphTraits *traits, const WeirConstants *constants,
 
 // 0: none.
 static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConstants *constants,
-                               double allowance, double pairs)
+                               double allowance)
 {
     double reach = 1.0 + 2.0 * allowance;
     double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
     double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
     if (!(wanted <= most_parts)) return 0; // what is not a number too
-    uint32_t parts = (uint32_t)wanted;
-    bool pays = constants->dimension == 3 || pairs <= most_pairs_of_lists_2d ||
-                lattice_neighbors(parameters, 2, 1.0) <= short_list_2d;
-    return pays && !is_short(constants, reach) ? parts : 0;
+    return is_short(constants, reach) ? 0 : (uint32_t)wanted;
 }
 
 // In 3D rows and layers half as high offer 2.3 candidates per neighbour instead of 3.6: where cells, an eighth of a support
@@ -116,7 +111,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
-    traits->list_parts = parts_of_lists(parameters, constants, most, pairs);
+    traits->list_parts = parts_of_lists(parameters, constants, most);
     bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);
     if (!lists) traits->list_parts = 0;
     if (!lists) least = most = walk_allowance;

@@ -204,6 +204,16 @@ export class App implements PanelHost {
     ]);
   }
 
+  // What else is slow, fewer particles would not mend.
+  #drawPlainly(now: number, engine: Engine, factor: number): void {
+    if (!this.drawsWater() || this.fluidStyle !== FluidStyle.water || this.#styleAsked) return;
+    this.#known.noteTooSlowForWater(engine.device);
+    this.#showStyle();
+    this.#panel?.refresh();
+    this.#rate.restart(now);
+    this.notes.toast('info', `Particles instead of water, which this graphics card draws too slowly: ${formatNumber(factor, 2)} of real time. W shows it.`);
+  }
+
   // ---- Scenes ----
 
   // A scene of wcsph made for a fast graphics card gets fewer particles where a slower one or the C solver moves it. In
@@ -242,13 +252,8 @@ export class App implements PanelHost {
     const timeScale = scene.parameter('time_scale')[0] ?? 1;
     const aimed = factor / timeScale;
     const timeStep = (1000 * (engine.stats.clock?.timeStep ?? 0)) / timeScale;
-    const isWater = this.drawsWater() && this.fluidStyle === FluidStyle.water;
-    if (isSlowMotion(aimed) && isWater && !this.#styleAsked && stepsFit(timeStep, engine.stats.stepMs, this.#interval)) {
-      this.#known.noteTooSlowForWater(engine.device);
-      this.#showStyle();
-      this.#panel?.refresh();
-      this.#rate.restart(now);
-      this.notes.toast('info', `Particles instead of water, which this graphics card draws too slowly: ${formatNumber(aimed, 2)} of real time. W shows it.`);
+    if (isSlowMotion(aimed) && stepsFit(timeStep, engine.stats.stepMs, this.#interval)) {
+      this.#drawPlainly(now, engine, aimed);
       return;
     }
     const fewer = this.#known.note(engine.device, this.sceneName, derived.particles, aimed, scene.dimension);
