@@ -189,10 +189,24 @@ static uint32_t choose(const WeirGpuSolver *common, char settings[WEIR_SETTINGS_
     return weir_gpu_wcsph_settings(&common->wanted_parameters, &common->wanted_constants, &traits, settings);
 }
 
+static void set_groups(WeirWcsphGpu *solver)
+{
+    const WeirWcsphTraits *traits = &solver->traits;
+    const WeirConstants *constants = &solver->common.constants;
+    uint32_t *groups = solver->common.passes.groups;
+    uint32_t solid_particles = constants->particle_count - constants->first_solid;
+    groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * constants->particle_count);
+    groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
+    groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
+    groups[WEIR_ITEMS_BLOCKS] = traits->block_count;
+    groups[WEIR_ITEMS_FREE_BLOCKS] = traits->free_block_count;
+}
+
 static void take_change(WeirGpuSolver *common)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     solver->traits = wanted_traits(solver);
+    set_groups(solver);
     WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &common->constants);
     weir_buffers_write(&common->buffers, WEIR_WCSPH_constants, &cells, sizeof cells);
 }
@@ -280,17 +294,6 @@ static bool make_host(WeirWcsphGpu *solver)
     return solver->host && solver->host_group && solver->host_solids;
 }
 
-static void set_groups(WeirWcsphGpu *solver, uint32_t solid_particles)
-{
-    const WeirWcsphTraits *traits = &solver->traits;
-    uint32_t *groups = solver->common.passes.groups;
-    groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * solver->common.constants.particle_count);
-    groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
-    groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
-    groups[WEIR_ITEMS_BLOCKS] = traits->block_count;
-    groups[WEIR_ITEMS_FREE_BLOCKS] = traits->free_block_count;
-}
-
 static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
 {
     WeirGpuSolver *common = &solver->common;
@@ -322,7 +325,6 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint6
     WeirStatus status =
         weir_gpu_solver_make(common, method, sizes, scan_blocks, WEIR_WCSPH_PIECES, pieces, message);
     if (status != WEIR_OK) return status;
-    set_groups(solver, setup->constants.particle_count - setup->constants.first_solid);
     set_sort_groups(solver, scan_blocks);
     status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) weir_gpu_wcsph_write_world(solver);
