@@ -59,11 +59,11 @@ async function main(): Promise<void> {
     particles: Number(query.get('particles')) || 0,
   });
   window.weir = app;
-  const wantedColor = query.get('color') ?? 'speed';
-  const color = colorNames[wantedColor.replaceAll(/[-_+]/g, ' ')];
+  const wantedColor = query.get('color');
+  const color = colorNames[(wantedColor ?? 'speed').replaceAll(/[-_+]/g, ' ')];
   if (color !== undefined) app.setColorBy(color);
-  if (color !== undefined && query.has('color')) app.setFluidStyle(FluidStyle.particles); // which alone have colours
   else app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
+  if (wantedColor !== null && color !== undefined) app.setFluidStyle(FluidStyle.particles); // which alone have colours
   if (trouble) app.notes.toast('error', trouble);
   addEventListener('error', (event) => app.notes.toast('error', event.message));
   addEventListener('unhandledrejection', (event) => app.notes.toast('error', String(event.reason)));

@@ -23,6 +23,7 @@ for (const kind of browsers) {
       const tab = await open('backend=gpu&particles=2000');
       await tab.engine('gpu');
       await tab.frames(3);
+      assert.equal(await tab.evaluate(() => document.querySelector('.note.error')?.textContent ?? ''), '', 'no complaint of its own');
       const first = await tab.pixels();
       await tab.until('0.1 simulated seconds', () => window.weir.engine.stats.time > 0.1);
       const later = await tab.pixels();
