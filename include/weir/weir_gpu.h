@@ -21,7 +21,7 @@ typedef struct WeirGpuOptions {
     bool no_timestamps;   // do not measure passes
     bool trusted_shaders; // native only: no run-time bounds checks in WGSL (4-18 % faster)
     // Bytes that the neighbour lists of a simulation may take, about as much as all else of it; 0: 8 GiB. Where they would be
-    // larger, or the device's memory is too short for them, cells are walked, which takes up to 1.5 times as long.
+    // larger, or the device's memory is too short for them, cells are walked, which takes 1.1 to 1.9 times as long.
     uint64_t list_memory;
 } WeirGpuOptions;
 

@@ -128,11 +128,6 @@ static uint32_t choose(const WeirGpuSolver *solver, char settings[WEIR_SETTINGS_
     return weir_mueller_settings(&solver->wanted_parameters, &solver->wanted_constants, settings);
 }
 
-static void take_change(WeirGpuSolver *solver)
-{
-    (void)solver; // the uniforms are all
-}
-
 // Ids in order, and the positions rounded once.
 static WeirStatus write_particles(WeirGpuSolver *solver, const WeirParticles *particles)
 {
@@ -235,7 +230,6 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
     common->gpu = gpu;
     common->start = start;
     common->choose = choose;
-    common->take_change = take_change;
     common->health_buffer = WEIR_MUELLER_health;
     common->health_size = sizeof(WeirDeviceHealth);
     common->take_health = weir_mueller_take_health;

@@ -59,8 +59,7 @@ typedef struct WeirPasses {
     WeirVariant variants[WEIR_MAX_VARIANTS];
     uint32_t current, next; // the variant that runs, and the one prepared last
     uint32_t made;          // variants so far
-    bool
-        in_background; // pipelines come some time after they were asked for: when the report is no longer pending
+    bool in_background;     // pipelines come later than they are asked for: until then the report is pending
 } WeirPasses;
 
 // Storage buffers that a pass binds, each in one part: WebGPU promises no more than 8.

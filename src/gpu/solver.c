@@ -89,7 +89,7 @@ static void take_change(WeirGpuSolver *solver)
     // The two uniforms come first in every method's list.
     weir_buffers_write(&solver->buffers, 0, &solver->parameters, sizeof solver->parameters);
     weir_buffers_write(&solver->buffers, 1, &solver->constants, sizeof solver->constants);
-    solver->take_change(solver);
+    if (solver->take_change) solver->take_change(solver);
 }
 
 // What is wanted by now may need other pipelines than those that have just come.

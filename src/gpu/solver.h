@@ -34,7 +34,8 @@ struct WeirGpuSolver {
     WeirConstants wanted_constants;
     // WGSL constants of what is wanted, and the passes that it needs, by bit.
     uint32_t (*choose)(const WeirGpuSolver *solver, char settings[WEIR_SETTINGS_LENGTH]);
-    void (*take_change)(WeirGpuSolver *solver); // it holds now, and is uploaded: what the method makes of it
+    void (*take_change)(
+        WeirGpuSolver *solver); // it holds now, and is uploaded: what else follows; NULL for nothing
 
     uint64_t work;       // submits that changed the state, counted
     uint64_t state_work; // `work` when the state was last replaced

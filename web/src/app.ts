@@ -221,13 +221,14 @@ export class App implements PanelHost {
   #suit(): string {
     const { scene } = this.store;
     if (scene.method !== 'wcsph') return '';
-    const most = cpuParticles[scene.dimension === 3 ? 3 : 2];
-    if (this.engine?.kind !== 'gpu') return this.#thin(most);
+    if (this.engine?.kind !== 'gpu') return this.#thin(0);
     const known = this.#known.recall(this.engine.device, this.sceneName);
-    return known > 0 && this.#isCard() ? this.#thin(Math.max(known, most)) : '';
+    return known > 0 && this.#isCard() ? this.#thin(known) : '';
   }
 
-  #thin(most: number): string {
+  // To so many particles, but no fewer than the C solver moves.
+  #thin(wanted: number): string {
+    const most = Math.max(wanted, cpuParticles[this.store.scene.dimension === 3 ? 3 : 2]);
     const usual = this.store.derived.particles;
     if (usual <= 1.2 * most) return '';
     try {
@@ -258,7 +259,7 @@ export class App implements PanelHost {
     }
     const fewer = this.#known.note(engine.device, this.sceneName, derived.particles, aimed, scene.dimension);
     if (fewer === 0) return;
-    const words = this.#thin(Math.max(fewer, cpuParticles[scene.dimension === 3 ? 3 : 2]));
+    const words = this.#thin(fewer);
     if (!words) return;
     this.notes.toast('info', `${words}: this graphics card moved those at ${formatNumber(aimed, 2)} of real time. The slider asks for more.`);
     void this.#run(this.store.document);

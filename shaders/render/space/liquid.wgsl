@@ -28,6 +28,18 @@ const thickness_radius = 1.7; // of the blobs that are summed up, spacings
 // sizes show the same blue.
 const water_absorption = vec3f(0.92, 0.20, 0.105);
 
+// A blob that is summed up falls off with (1 - r^2)^2, which integrates to pi / 3 over a disc of radius 1. Its height in the
+// middle, m, if it holds one particle's volume over an ellipse of the radii a and b, m.
+fn blob_peak(a: f32, b: f32) -> f32 {
+    return 3.0 * frame.spacing * frame.spacing * frame.spacing / (3.14159265 * a * b);
+}
+
+// `offset`: from the middle, radii.
+fn blob_share(offset: vec2f) -> f32 {
+    let inside = max(1.0 - dot(offset, offset), 0.0);
+    return inside * inside;
+}
+
 // What a particle adds to a sum in half precision: each to one of the channels, so that many small parts are not lost.
 fn spread_out(particle: u32, part: f32) -> vec4f {
     return select(vec4f(0.0), vec4f(part), vec4u(particle % 4u) == vec4u(0u, 1u, 2u, 3u));

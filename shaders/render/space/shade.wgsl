@@ -18,15 +18,11 @@ fn shade_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) par
     let radius = max(2.2 * frame.spacing * scale, vec2f(4.5 * 2.0 / 512.0));
     blob.place = vec4f(light.xy + square_corner(vertex) * radius, 0.5, 1.0);
     blob.offset = square_corner(vertex);
-    // (1 - r^2)^2 over the disc integrates to pi / 3 radii^2; the blob holds one particle's volume.
-    let area = radius.x * radius.y / (scale.x * scale.y);
-    let peak = 3.0 * frame.spacing * frame.spacing * frame.spacing / (3.14159265 * area);
-    blob.peak = spread_out(particle, peak);
+    blob.peak = spread_out(particle, blob_peak(radius.x / scale.x, radius.y / scale.y));
     return blob;
 }
 
 @fragment
 fn shade_fragment(blob: Blob) -> @location(0) vec4f {
-    let inside = max(1.0 - dot(blob.offset, blob.offset), 0.0);
-    return blob.peak * inside * inside;
+    return blob.peak * blob_share(blob.offset);
 }

@@ -22,9 +22,7 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     let corner = square_corner(vertex);
     blob.place = project(center + vec3f(corner * radius, 0.0));
     blob.offset = corner;
-    // (1 - r^2)^2 over the disc integrates to pi / 3 radii^2; the blob holds one particle's volume.
-    let volume = frame.spacing * frame.spacing * frame.spacing;
-    let peak = 3.0 * volume / (3.14159265 * radius * radius);
+    let peak = blob_peak(radius, radius);
     blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle_speed(particle), particle));
     blob.ahead = center.z;
     return blob;
@@ -32,9 +30,8 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
 
 @fragment
 fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
-    let inside = max(1.0 - dot(blob.offset, blob.offset), 0.0);
     let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
     let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
     let before = clamp((behind - blob.ahead) / frame.spacing + 0.5, 0.0, 1.0);
-    return blob.peak * inside * inside * before;
+    return blob.peak * blob_share(blob.offset) * before;
 }
