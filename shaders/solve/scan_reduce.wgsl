@@ -14,19 +14,20 @@ fn scan_reduce(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
         return;
     }
     let block = workgroup_index(workgroup, workgroups);
+    let blocks = arrayLength(&block_sum);
     if local == 0u {
         atomicStore(&total, 0u);
     }
     workgroupBarrier();
     var sum = vec4u(0u);
-    if block < SCAN_BLOCKS {
+    if block < blocks {
         for (var k = 0u; k < SCAN_VECTORS; k++) {
             sum += cell_count[(block * SCAN_VECTORS + k) * WORKGROUP_SIZE + local];
         }
     }
     atomicAdd(&total, sum.x + sum.y + sum.z + sum.w);
     workgroupBarrier();
-    if local == 0u && block < SCAN_BLOCKS {
+    if local == 0u && block < blocks {
         block_sum[block] = atomicLoad(&total);
     }
 }

@@ -17,8 +17,9 @@ fn scan_write(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         return;
     }
     // The last row of workgroups may reach beyond the blocks.
-    let writes = workgroup_index(workgroup, workgroups) < SCAN_BLOCKS;
-    let block = min(workgroup_index(workgroup, workgroups), SCAN_BLOCKS - 1u);
+    let blocks = arrayLength(&block_sum);
+    let writes = workgroup_index(workgroup, workgroups) < blocks;
+    let block = min(workgroup_index(workgroup, workgroups), blocks - 1u);
     if local == 0u {
         atomicStore(&before, 0u);
     }

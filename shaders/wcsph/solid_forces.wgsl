@@ -12,7 +12,7 @@ var<workgroup> partial: array<array<vec4f, 4>, WORKGROUP_SIZE>;
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn solid_forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
                     @builtin(local_invocation_index) local: u32) {
-    let b = min(workgroup_index(workgroup, workgroups), BLOCKS - 1u);
+    let b = min(workgroup_index(workgroup, workgroups), arrayLength(&blocks) - 1u);
     let block = blocks[b];
     let orientation = solid_state[NOW + block.x].orientation;
     var sums = array<vec4f, 4>();

@@ -204,6 +204,7 @@ void weir_gpu_destroy(WeirGpu *gpu)
     if (!gpu) return;
     gpu->destroyed = true;
     ++gpu->callbacks; // this one: the instance's release may run all others, and the last one frees
+    weir_pipelines_release(&gpu->pipelines);
     if (gpu->queue) wgpuQueueRelease(gpu->queue);
     if (gpu->device) {
         wgpuDeviceDestroy(gpu->device);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/gpu.h"
+#include "gpu/pipelines.h"
 
 // Threads of a workgroup, in C and WGSL alike.
 enum { WEIR_WORKGROUP_SIZE = 128 };
@@ -27,9 +28,10 @@ struct WeirGpu {
     uint32_t max_groups; // workgroups of a dispatch in one dimension; tests make it small
     bool timestamps;     // timestamp queries may be used
     bool software;
-    bool destroyed;                     // weir_gpu_destroy() was called; callbacks may still come
-    uint32_t callbacks;                 // that have not come yet
-    uint64_t memory;                    // bytes of all buffers
+    bool destroyed;     // weir_gpu_destroy() was called; callbacks may still come
+    uint32_t callbacks; // that have not come yet
+    uint64_t memory;    // bytes of all buffers
+    WeirPipelines pipelines;
     uint64_t submits[WEIR_MAX_SUBMITS]; // native.c: the last ones
     uint32_t submit_count;
     WeirStatus status; // WEIR_PENDING, WEIR_OK, then the first error

@@ -39,14 +39,13 @@ WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message)
 }
 
 // Constants that C decides: binding numbers by name, sizes, and what is chosen, so that no pass branches on it.
-static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo *method, const char *settings,
-                              uint32_t scan_blocks)
+static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo *method, const char *settings)
 {
     size_t length = 0;
 #define APPEND(...)                                                                                          \
     length += (size_t)snprintf(text ? text + length : NULL, text ? capacity - length : 0, __VA_ARGS__)
-    APPEND("const WORKGROUP_SIZE = %du;\nconst SCAN_VECTORS = %du;\nconst SCAN_BLOCKS = %uu;\n",
-           WEIR_WORKGROUP_SIZE, WEIR_SCAN_VECTORS, scan_blocks);
+    APPEND("const WORKGROUP_SIZE = %du;\nconst SCAN_VECTORS = %du;\n", WEIR_WORKGROUP_SIZE,
+           WEIR_SCAN_VECTORS);
     for (uint32_t name = 0; name < method->buffer_count; ++name)
         APPEND("const BINDING_%s = %uu;\n", method->buffers[name].name, name);
     APPEND("%s", settings);
@@ -68,15 +67,15 @@ static char *append(char *end, const char *text)
     return end + length;
 }
 
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks,
-                       const char *const *parts, const char *source)
+char *weir_pass_source(const WeirMethodInfo *method, const char *settings, const char *const *parts,
+                       const char *source)
 {
-    size_t constants = write_constants(NULL, 0, method, settings, scan_blocks);
+    size_t constants = write_constants(NULL, 0, method, settings);
     size_t size = constants + strlen(weir_wgsl_structs) + length_of(method->parts) + length_of(parts) +
                   strlen(source) + 1;
     char *text = malloc(size);
     if (!text) return NULL;
-    char *end = text + write_constants(text, size, method, settings, scan_blocks);
+    char *end = text + write_constants(text, size, method, settings);
     end = append(end, weir_wgsl_structs);
     for (const char *const *part = method->parts; *part; ++part) end = append(end, *part);
     for (const char *const *part = parts; part && *part; ++part) end = append(end, *part);
@@ -187,14 +186,17 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
         (size_t)snprintf(settings, capacity, "%s%s", variant->settings, info->settings ? info->settings : "");
     weir_parts_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
                        capacity - length);
-    char *source =
-        weir_pass_source(method, settings, passes->groups[WEIR_ITEMS_CELL_BLOCKS], info->parts, info->source);
+    char *source = weir_pass_source(method, settings, info->parts, info->source);
     free(settings);
     if (!source) return false;
     WGPUBindGroupLayout layout = passes->layout[pass];
     WGPUComputePipeline *pipeline = &variant->pipeline[pass];
+    variant->key[pass] = weir_pipeline_key(info->label, source);
+    *pipeline = weir_pipelines_find(&passes->gpu->pipelines, variant->key[pass]);
     bool made = true;
-    if (passes->in_background)
+    if (*pipeline) {
+        // An equal layout is as good as the one that it was made with.
+    } else if (passes->in_background)
         made = request_pipeline(passes->gpu, info, source, layout, report, pipeline) == WEIR_OK;
     else
         *pipeline = weir_pass_pipeline(passes->gpu, info->name, info->label, source, layout, report);
@@ -210,17 +212,16 @@ static void release_pipelines(WeirVariant *variant)
     }
 }
 
-// The variant of these settings; if there is none, it takes the place of the one made longest ago that does not run.
+// The variant of these settings: the one that runs or the other one, which is made theirs if it is not.
 static uint32_t find_variant(WeirPasses *passes, const char *settings)
 {
-    for (uint32_t n = 0; n < passes->made && n < WEIR_MAX_VARIANTS; ++n)
+    for (uint32_t n = 0; n < 2; ++n)
         if (strcmp(passes->variants[n].settings, settings) == 0) return n;
-    if (passes->made > 0 && passes->made % WEIR_MAX_VARIANTS == passes->current) ++passes->made;
-    uint32_t found = passes->made++ % WEIR_MAX_VARIANTS;
-    WeirVariant *variant = &passes->variants[found];
+    uint32_t other = 1 - passes->current;
+    WeirVariant *variant = &passes->variants[other];
     release_pipelines(variant);
     snprintf(variant->settings, sizeof variant->settings, "%s", settings);
-    return found;
+    return other;
 }
 
 WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_t needed, WeirReport *report,
@@ -247,13 +248,21 @@ void weir_passes_use_prepared(WeirPasses *passes)
     passes->current = passes->next;
 }
 
+void weir_passes_keep(const WeirPasses *passes)
+{
+    const WeirVariant *variant = &passes->variants[passes->current];
+    for (uint32_t pass = 0; pass < passes->method->pass_count; ++pass)
+        if (variant->pipeline[pass])
+            weir_pipelines_keep(&passes->gpu->pipelines, variant->key[pass], variant->pipeline[pass]);
+}
+
 void weir_passes_destroy(WeirPasses *passes)
 {
     for (int pass = 0; pass < WEIR_MAX_PASSES; ++pass) {
         if (passes->bind_group[pass]) wgpuBindGroupRelease(passes->bind_group[pass]);
         if (passes->layout[pass]) wgpuBindGroupLayoutRelease(passes->layout[pass]);
     }
-    for (int n = 0; n < WEIR_MAX_VARIANTS; ++n) release_pipelines(&passes->variants[n]);
+    for (int n = 0; n < 2; ++n) release_pipelines(&passes->variants[n]);
 }
 
 void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2])

@@ -4,7 +4,7 @@
 
 #include "gpu/parts.h"
 
-enum { WEIR_MAX_PASSES = 24, WEIR_MAX_VARIANTS = 4, WEIR_SETTINGS_LENGTH = 2048 };
+enum { WEIR_MAX_PASSES = 24, WEIR_SETTINGS_LENGTH = 2048 };
 
 // What a pass is spread over.
 typedef enum WeirItems {
@@ -47,6 +47,7 @@ typedef struct WeirMethodInfo {
 typedef struct WeirVariant {
     char settings[WEIR_SETTINGS_LENGTH];
     WGPUComputePipeline pipeline[WEIR_MAX_PASSES]; // made when first needed
+    uint64_t key[WEIR_MAX_PASSES];                 // weir_pipeline_key()
 } WeirVariant;
 
 typedef struct WeirPasses {
@@ -56,9 +57,8 @@ typedef struct WeirPasses {
     uint32_t groups[WEIR_ITEMS_TOTAL]; // workgroups by what a pass is spread over
     WGPUBindGroupLayout layout[WEIR_MAX_PASSES];
     WGPUBindGroup bind_group[WEIR_MAX_PASSES];
-    WeirVariant variants[WEIR_MAX_VARIANTS];
+    WeirVariant variants[2];
     uint32_t current, next; // the variant that runs, and the one prepared last
-    uint32_t made;          // variants so far
     bool in_background;     // pipelines come later than they are asked for: until then the report is pending
 } WeirPasses;
 
@@ -72,6 +72,8 @@ WeirStatus weir_passes_prepare(WeirPasses *passes, const char *settings, uint32_
                                WeirMessage *message);
 // What was prepared last runs from now on.
 void weir_passes_use_prepared(WeirPasses *passes);
+// The pipelines that run were made without a fault: the device keeps them for other simulations.
+void weir_passes_keep(const WeirPasses *passes);
 void weir_passes_destroy(WeirPasses *passes);
 // Workgroups of a dispatch along its two dimensions.
 void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2]);
@@ -83,8 +85,8 @@ void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUCo
 
 // The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, `parts` (NULL for none),
 // then `source`. NULL if memory runs out.
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, uint32_t scan_blocks,
-                       const char *const *parts, const char *source);
+char *weir_pass_source(const WeirMethodInfo *method, const char *settings, const char *const *parts,
+                       const char *source);
 // Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if
 // memory runs out.
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,

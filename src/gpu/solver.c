@@ -77,6 +77,7 @@ WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver)
     solver->starting = !solver->running && pipelines_are_under_way(solver);
     if (solver->starting) return WEIR_OK;
     solver->running = true;
+    weir_passes_keep(&solver->passes);
     return solver->start(solver);
 }
 
@@ -84,6 +85,7 @@ static void take_change(WeirGpuSolver *solver)
 {
     solver->base.changing = false;
     weir_passes_use_prepared(&solver->passes);
+    if (solver->running) weir_passes_keep(&solver->passes);
     solver->parameters = solver->wanted_parameters;
     solver->constants = solver->wanted_constants;
     // The two uniforms come first in every method's list.

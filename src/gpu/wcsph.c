@@ -300,9 +300,15 @@ static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
     uint32_t groups = common->passes.groups[WEIR_ITEMS_PARTICLES];
     if (groups > MOST_SORTING) groups = MOST_SORTING;
     common->passes.groups[WEIR_ITEMS_SORTING] = groups;
-    weir_pass_groups(common->gpu, groups, solver->traits.sort_groups[WEIR_SORT_PARTICLES]);
-    weir_pass_groups(common->gpu, scan_blocks, solver->traits.sort_groups[WEIR_SORT_BLOCKS]);
-    weir_pass_groups(common->gpu, 1, solver->traits.sort_groups[WEIR_SORT_ONE]);
+    uint32_t sizes[2 * WEIR_SORT_SIZES][4] = {{0}}, *sorting[WEIR_SORT_SIZES];
+    for (int k = 0; k < WEIR_SORT_SIZES; ++k) {
+        sorting[k] = sizes[WEIR_SORT_SIZES + k];
+        sorting[k][2] = 1;
+    }
+    weir_pass_groups(common->gpu, groups, sorting[WEIR_SORT_PARTICLES]);
+    weir_pass_groups(common->gpu, scan_blocks, sorting[WEIR_SORT_BLOCKS]);
+    weir_pass_groups(common->gpu, 1, sorting[WEIR_SORT_ONE]);
+    weir_buffers_write(&common->buffers, WEIR_WCSPH_sort_groups, sizes, sizeof sizes);
     solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
 }
 

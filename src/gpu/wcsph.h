@@ -87,7 +87,8 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_PASS_TOTAL
 } WeirWcsphGpuPass;
 
-// Sizes of dispatches in sort_groups: of passes over particles, over blocks of cells, and of one workgroup.
+// Sizes of dispatches in sort_groups: of passes over particles, over blocks of cells, and of one workgroup; first as the
+// device decides them for the next sort, then as they are if there is one.
 enum { WEIR_SORT_PARTICLES, WEIR_SORT_BLOCKS, WEIR_SORT_ONE, WEIR_SORT_SIZES };
 
 // What a world asks of the passes.
@@ -97,7 +98,6 @@ typedef struct WeirWcsphTraits {
     bool moving_solids, free_solids, slip_solids, can_empty;
     float fastest_surface; // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
-    uint32_t sort_groups[WEIR_SORT_SIZES][2]; // workgroups of the dispatches of a sort
     uint32_t sort_interval;     // steps; particles may be sorted before those whose number it divides
     uint32_t emission_interval; // a multiple of it: weir_world_emission_interval()
     uint32_t lanes;             // threads that share a particle's neighbours: 1, 2, 4, 8

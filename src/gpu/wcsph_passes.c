@@ -219,7 +219,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
         traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
     sizes[WEIR_WCSPH_nozzle].bytes = 16 * at_least_one(world->point_count);
     sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
-    sizes[WEIR_WCSPH_sort_groups].bytes = 16 * WEIR_SORT_SIZES;
+    sizes[WEIR_WCSPH_sort_groups].bytes = 2 * 16 * WEIR_SORT_SIZES;
     sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
 
@@ -249,20 +249,16 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("CAN_EMPTY", traits->can_empty);
     FLAG("LISTS", traits->list_parts > 0);
     NUMBER("LIST_PARTS", traits->list_parts);
-    NUMBER("LIST_SHARE", 128 * (traits->list_parts + 1) * traits->list_blocks);
+    NUMBER("LIST_SHARE", traits->list_shares > 1 ? 128 * (traits->list_parts + 1) * traits->list_blocks : 0);
     NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
-    for (int k = 0; k < WEIR_SORT_SIZES; ++k)
-        APPEND("const SORT_GROUPS_%d = vec4u(%uu, %uu, 1u, 0u);\n", k, traits->sort_groups[k][0],
-               traits->sort_groups[k][1]);
     NUMBER("EMISSION_INTERVAL", traits->emission_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
            traits->most_allowance);
     APPEND("const FASTEST_SURFACE = %.9e;\n", (double)traits->fastest_surface);
     NUMBER("SOLID_COUNT", traits->solid_count > 0 ? traits->solid_count : 1);
-    NUMBER("BLOCKS", traits->block_count > 0 ? traits->block_count : 1);
     NUMBER("FREE_BLOCKS", traits->free_block_count);
     NUMBER("EMITTER_COUNT", traits->emitter_count);
     NUMBER("EMITTERS", traits->emitter_count > 0 ? traits->emitter_count : 1);

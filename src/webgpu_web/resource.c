@@ -301,6 +301,11 @@ WGPUFuture wgpuDeviceCreateComputePipelineAsync(WGPUDevice device,
     return weir_webgpu_future(record);
 }
 
+void wgpuComputePipelineAddRef(WGPUComputePipeline pipeline)
+{
+    weir_js_add_reference(WEIR_ID(pipeline));
+}
+
 void wgpuComputePipelineRelease(WGPUComputePipeline pipeline)
 {
     weir_js_release(WEIR_ID(pipeline));

@@ -115,7 +115,7 @@ static void a_shader_error_names_the_pass(void **state)
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
     char settings[WEIR_SETTINGS_LENGTH];
     weir_mueller_settings(&(WeirParameters){0}, &(WeirConstants){0}, settings);
-    char *source = weir_pass_source(&weir_mueller_method, settings, 1, NULL, wrong);
+    char *source = weir_pass_source(&weir_mueller_method, settings, NULL, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});
     WGPUComputePipeline pipeline = weir_pass_pipeline(gpu, "density", "pass density", source, layout, report);
@@ -311,6 +311,73 @@ static void simulations_may_end_at_work(void **state)
     weir_gpu_destroy(gpu);
 }
 
+static uint32_t kept_pipelines(const WeirGpu *gpu)
+{
+    uint32_t count = 0;
+    for (int n = 0; n < WEIR_KEPT_PIPELINES; ++n) count += gpu->pipelines.kept[n].pipeline != NULL;
+    return count;
+}
+
+// Positions of a dam break of `wcsph` after 20 steps, x and y of the first particle; `kernel` NULL: the usual one.
+static void fall(WeirGpu *gpu, double spacing, const char *kernel, float first[2])
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){1, 0.5, 0}), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){0.4, 0.4, 0}, NULL),
+                WEIR_OK);
+    weir_test_set(scene, "particle_spacing", spacing);
+    if (kernel) CHECK_SCENE(scene, weir_scene_set_string(scene, "parameters.kernel", kernel), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, weir_gpu_backend(gpu), 0);
+    weir_test_step(sim, 20);
+    float *positions = weir_test_read(sim, WEIR_FIELD_POSITION);
+    memcpy(first, positions, 2 * sizeof *first);
+    free(positions);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
+// A scene that starts again, with other particles too, finds its pipelines; they give the same bits. What is kept is bounded.
+static void pipelines_are_kept(void **state)
+{
+    (void)state;
+    WeirGpu *gpu = weir_test_gpu(NULL);
+    float once[2], again[2];
+    assert_int_equal(kept_pipelines(gpu), 0);
+    fall(gpu, 0.02, NULL, once);
+    uint32_t made = kept_pipelines(gpu);
+    assert_in_range(made, 10, WEIR_KEPT_PIPELINES - 1);
+    fall(gpu, 0.02, NULL, again);
+    assert_memory_equal(again, once, sizeof once);
+    fall(gpu, 0.0195, NULL, again);
+    assert_int_equal(kept_pipelines(gpu), made);
+    fall(gpu, 0.02, "cubic", again);
+    assert_in_range(kept_pipelines(gpu), made + 1, 2 * made);
+    weir_gpu_destroy(gpu);
+}
+
+static void what_was_not_looked_for_makes_room(void **state)
+{
+    (void)state;
+    WeirGpu *gpu = weir_test_gpu(NULL);
+    float where[2];
+    fall(gpu, 0.02, NULL, where);
+    WeirPipelines *pipelines = &gpu->pipelines;
+    WGPUComputePipeline any = pipelines->kept[0].pipeline;
+    uint64_t first = pipelines->kept[0].key, second = pipelines->kept[1].key;
+    uint32_t made = kept_pipelines(gpu);
+    for (uint64_t key = made; key < WEIR_KEPT_PIPELINES; ++key) weir_pipelines_keep(pipelines, key, any);
+    assert_int_equal(kept_pipelines(gpu), WEIR_KEPT_PIPELINES);
+    wgpuComputePipelineRelease(weir_pipelines_find(pipelines, first));
+    weir_pipelines_keep(pipelines, 1, any);
+    assert_int_equal(kept_pipelines(gpu), WEIR_KEPT_PIPELINES);
+    assert_null(weir_pipelines_find(pipelines, second));
+    assert_ptr_equal(weir_pipelines_find(pipelines, first), any);
+    wgpuComputePipelineRelease(any);
+    weir_gpu_destroy(gpu);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,6 +395,8 @@ int main(void)
         cmocka_unit_test(passes_fit_the_least_limits),
         cmocka_unit_test(trusted_shaders_change_nothing),
         cmocka_unit_test(simulations_may_end_at_work),
+        cmocka_unit_test(pipelines_are_kept),
+        cmocka_unit_test(what_was_not_looked_for_makes_room),
     };
     return cmocka_run_group_tests_name("device", tests, NULL, NULL);
 }

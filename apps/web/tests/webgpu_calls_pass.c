@@ -115,7 +115,8 @@ static void free_compute(Compute *compute)
     for (int k = 0; k < 2; k++) wgpuBindGroupLayoutRelease(compute->layouts[k]);
     wgpuPipelineLayoutRelease(compute->pipeline_layout);
     wgpuShaderModuleRelease(compute->shader);
-    wgpuComputePipelineRelease(compute->pipeline);
+    wgpuComputePipelineAddRef(compute->pipeline);
+    for (int k = 0; k < 2; k++) wgpuComputePipelineRelease(compute->pipeline);
     wgpuBufferRelease(compute->uniforms);
     wgpuBufferRelease(compute->numbers);
     wgpuBufferRelease(compute->results);
@@ -495,7 +496,8 @@ static int test_surface(uint32_t step)
 
 const WeirTest weir_pass_tests[] = {
     {"wgpuDeviceCreateBindGroupLayout wgpuBindGroupLayoutRelease wgpuDeviceCreatePipelineLayout "
-     "wgpuPipelineLayoutRelease wgpuDeviceCreateComputePipeline wgpuComputePipelineRelease "
+     "wgpuPipelineLayoutRelease wgpuDeviceCreateComputePipeline wgpuComputePipelineAddRef "
+     "wgpuComputePipelineRelease "
      "wgpuDeviceCreateBindGroup wgpuBindGroupRelease wgpuCommandEncoderBeginComputePass "
      "wgpuComputePassEncoderSetPipeline wgpuComputePassEncoderSetBindGroup "
      "wgpuComputePassEncoderDispatchWorkgroups wgpuComputePassEncoderEnd wgpuComputePassEncoderRelease",
