@@ -80,6 +80,14 @@ export default defineConfig({
   worker: { format: 'es' },
   build: {
     target: 'es2022',
-    rollupOptions: { input: [resolve(root, 'index.html'), resolve(root, 'compare.html'), resolve(root, 'validation.html')] },
+    rollupOptions: {
+      input: {
+        index: resolve(root, 'index.html'),
+        compare: resolve(root, 'compare.html'),
+        validation: resolve(root, 'validation.html'),
+        'weir-fluid': resolve(root, 'src/weir_fluid.ts'), // other pages name it
+      },
+      output: { entryFileNames: ({ name }) => (name === 'weir-fluid' ? '[name].js' : 'assets/[name]-[hash].js') },
+    },
   },
 });

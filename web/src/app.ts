@@ -22,6 +22,7 @@ export type AppOptions = {
   sceneName: string;
   document: SceneDocument;
   particles: number; // 0: as the scene has it
+  embedded: boolean; // the fluid alone: no panel, no words but errors
 };
 
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
@@ -53,6 +54,7 @@ export class App implements PanelHost {
   readonly #module: WebAssembly.Module;
   readonly #legend = new Legend(element('footer'));
   readonly #stage = element('stage');
+  readonly #embedded: boolean;
   #asked: boolean; // the user has asked for this number of particles
   readonly #rate = new RunRate();
   readonly #known = new KnownCards(pageStore());
@@ -81,10 +83,12 @@ export class App implements PanelHost {
     this.backend = options.backend;
     this.sceneName = options.sceneName;
     this.store = new SceneStore(weir, options.document);
+    this.#embedded = options.embedded;
+    document.body.classList.toggle('embedded', options.embedded);
     this.#asked = options.particles > 0;
     if (this.#asked) this.store.replace(this.store.withParticles(options.particles));
     this.#lastGood = this.store.document;
-    this.pointer = new Pointer(this.#stage, this.camera);
+    this.pointer = new Pointer(this.#stage, this.camera, !options.embedded);
     this.pointer.onRadius = () => this.#panel?.refresh();
     this.pointer.source = () => this.engine?.fluid() ?? null;
   }
@@ -101,7 +105,7 @@ export class App implements PanelHost {
     this.#showScene();
     await this.#chooseEngine();
     requestAnimationFrame(this.#frame);
-    this.#panel = new Panel(element('panel'), this, !small.matches);
+    if (!this.#embedded) this.#panel = new Panel(element('panel'), this, !small.matches);
     this.#fit();
     this.#listen();
   }
@@ -498,6 +502,7 @@ export class App implements PanelHost {
 
   #fit(): void {
     const { camera } = this;
+    if (this.#embedded) return camera.fit({ left: 8, right: 8, top: 8, bottom: 8 });
     const narrow = small.matches;
     const right = (this.#panelShown || this.plot.visible) && !narrow ? panelWidth + 20 : 20;
     // It only grows while the window stays: numbers that change their width must not make the picture jump.
@@ -532,7 +537,7 @@ export class App implements PanelHost {
       arrowdown: () => this.#turn(0, -1),
       digit: (digit) => {
         const entry = this.scenes[digit - 1];
-        if (entry) void this.loadScene(entry.name);
+        if (entry && !this.#embedded) void this.loadScene(entry.name);
       },
     });
     const stage = document.body;

@@ -1,5 +1,7 @@
-// Starts the page. ?scene=NAME or URL, ?backend=auto|gpu|cpu, ?particles=N, ?color=speed|density|...
+// Starts the page. ?scene=NAME or URL, ?backend=auto|gpu|cpu, ?particles=N, ?color=speed|density|...; ?embed: the fluid alone,
+// for a frame in another page (weir_fluid.ts).
 import { App } from './app.ts';
+import { obeyHost, tellHost } from './embedded.ts';
 import { colorNames } from './legend.ts';
 import { fetchScene, fetchSceneIndex, type SceneDocument, type SceneEntry } from './scene_document.ts';
 import type { Backend } from './start_engine.ts';
@@ -17,6 +19,7 @@ function showPlainError(error: unknown): void {
   box.setAttribute('role', 'alert');
   box.textContent = `Weir could not start: ${error instanceof Error ? error.message : String(error)}`;
   document.body.append(box);
+  tellHost({ weir: 'error', message: box.textContent });
 }
 
 async function compileEngine(): Promise<WebAssembly.Module> {
@@ -57,6 +60,7 @@ async function main(): Promise<void> {
     sceneName: name,
     document,
     particles: Number(query.get('particles')) || 0,
+    embedded: query.has('embed'),
   });
   window.weir = app;
   const wantedColor = query.get('color');
@@ -64,10 +68,15 @@ async function main(): Promise<void> {
   if (color !== undefined) app.setColorBy(color);
   else app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
   if (wantedColor !== null && color !== undefined) app.setFluidStyle(FluidStyle.particles); // which alone have colours
-  if (trouble) app.notes.toast('error', trouble);
+  if (trouble) {
+    app.notes.toast('error', trouble);
+    tellHost({ weir: 'error', message: trouble });
+  }
   addEventListener('error', (event) => app.notes.toast('error', event.message));
   addEventListener('unhandledrejection', (event) => app.notes.toast('error', String(event.reason)));
   await app.start();
+  obeyHost(app);
+  tellHost({ weir: 'ready' });
 }
 
 main().catch(showPlainError);

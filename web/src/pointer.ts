@@ -39,7 +39,8 @@ export class Pointer {
   #onFluid = false;
   #hovered = 0;
 
-  constructor(element: HTMLElement, camera: Camera) {
+  // `wheel`: it is the tool's or the camera's; otherwise it scrolls the page around.
+  constructor(element: HTMLElement, camera: Camera, wheel = true) {
     this.#camera = camera;
     this.#element = element;
     element.addEventListener('pointerdown', (event) => this.#press(event));
@@ -50,7 +51,7 @@ export class Pointer {
       if (!this.#down.has(event.pointerId)) this.#inside = false;
     });
     element.addEventListener('contextmenu', (event) => event.preventDefault());
-    element.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
+    if (wheel) element.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
   }
 
   get #isSpace(): boolean {

@@ -13,4 +13,4 @@ function run(command, ...args) {
 }
 
 if (!existsSync(`${web}dist/index.html`)) run(process.execPath, 'node_modules/vite/bin/vite.js', 'build');
-run(process.execPath, '--test', `${here}page.test.mjs`);
+run(process.execPath, '--test', '--test-concurrency=1', `${here}page.test.mjs`, `${here}embed.test.mjs`);

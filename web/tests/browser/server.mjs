@@ -1,4 +1,4 @@
-// Serves dist/ on a free port of this machine.
+// Serves dist/ on a free port of this machine, and beside it `pages`: HTML by path.
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
@@ -10,9 +10,13 @@ const types = {
   '.wasm': 'application/wasm',
 };
 
-export async function serve() {
+export async function serve(pages = {}) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent((request.url ?? '/').split('?')[0]));
+    if (path in pages) {
+      response.writeHead(200, { 'content-type': 'text/html' }).end(pages[path]);
+      return;
+    }
     const file = join(root, path.endsWith('/') ? `${path}index.html` : path);
     const found = file.startsWith(root) && statSync(file, { throwIfNoEntry: false })?.isFile();
     if (!found) {
