@@ -555,17 +555,37 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
     return WEIR_OK;
 }
 
-WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics *diagnostics)
+// `time` as a solver gives it.
+static void set_moment(const WeirSim *sim, uint64_t step, double time, WeirDiagnostics *diagnostics)
 {
+    diagnostics->step = step;
+    diagnostics->time = time >= 0.0 ? sim->time_given + time
+                                    : sim->time - (double)(sim->steps - step) * sim->parameters.time_step;
+}
+
+static WeirStatus diagnose_there(WeirSim *sim, WeirDiagnostics *diagnostics)
+{
+    WeirDiagnosticSums sums;
+    WeirStatus status = sim->solver->interface->diagnose(sim->solver, &sums);
+    if (status == WEIR_ERROR_UNSTABLE) return status;
+    if (status) return pass_on(sim, status);
+    weir_diagnose_sums(&sums, &sim->parameters, &sim->constants, diagnostics);
+    set_moment(sim, sim->steps_given + sums.step, sums.time, diagnostics);
+    return WEIR_OK;
+}
+
+WeirStatus weir_sim_diagnose(WeirSim *sim, uint32_t flags, WeirDiagnostics *diagnostics)
+{
+    if (flags == 0 && sim->solver && sim->solver->interface->diagnose) {
+        WeirStatus status = diagnose_there(sim, diagnostics);
+        if (status != WEIR_ERROR_UNSTABLE) return status;
+    }
     WeirState state;
     WeirStatus status = weir_sim_state(sim, &state);
     if (status) return status;
-    status = weir_diagnose(&state, &sim->parameters, &sim->constants, count_neighbors, diagnostics);
+    status = weir_diagnose(&state, &sim->parameters, &sim->constants, flags, diagnostics);
     if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
-    diagnostics->step = state.step;
-    diagnostics->time = state.time >= 0.0
-                            ? sim->time_given + state.time
-                            : sim->time - (double)(sim->steps - state.step) * sim->parameters.time_step;
+    set_moment(sim, state.step, state.time, diagnostics);
     return WEIR_OK;
 }
 
@@ -595,7 +615,7 @@ WeirStatus weir_sim_count_neighbors(WeirSim *sim, uint32_t particles, WeirNeighb
     const WeirConstants *constants = &sim->constants;
     if (constants->period_x || constants->period_y || constants->period_z) {
         WeirDiagnostics all;
-        status = weir_sim_diagnose(sim, true, &all);
+        status = weir_sim_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS, &all);
         *found = (WeirNeighborCount){weir_sim_clock(sim).fluid_particles, all.mean_neighbors, NAN};
         return status;
     }

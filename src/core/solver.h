@@ -24,6 +24,17 @@ typedef struct WeirState {
     double time;                  // s since set_state(); negative: steps of one length (mueller)
 } WeirState;
 
+// Sums over free fluid, of which its diagnostics follow (diagnostics.h).
+typedef struct WeirDiagnosticSums {
+    uint64_t step; // as WeirState's
+    double time;
+    uint64_t particles, lost;
+    double place[3]; // m, from the domain's lowest corner along gravity
+    double velocity[3], speed2;
+    double density_error; // max(rho / rho0 - 1, 0)
+    double speed2_max, density_error_max;
+} WeirDiagnosticSums;
+
 // What the solver found since set_state().
 typedef struct WeirHealth {
     uint32_t bad_particles;  // faster than constants.speed_limit or not finite, counted over all steps
@@ -62,6 +73,10 @@ typedef struct WeirSolverInterface {
     WeirStatus (*read)(WeirSolver *solver, WeirState *state);
     // The same without evaluating: position, velocity, group and time alone. NULL where it would be no faster.
     WeirStatus (*read_motion)(WeirSolver *solver, WeirState *state);
+    // The sums of weir_sum_fluid() without copying the particles or evaluating forces; to single precision. WEIR_PENDING while
+    // they are under way; WEIR_ERROR_UNSTABLE after a blow-up, when only read() tells the last good state. NULL where read()
+    // is as fast.
+    WeirStatus (*diagnose)(WeirSolver *solver, WeirDiagnosticSums *sums);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
     // Milliseconds per step; 0: not known. NULL: those of all passes.
     double (*step_time)(const WeirSolver *solver);

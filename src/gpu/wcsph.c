@@ -248,8 +248,7 @@ static WeirStatus write_state(WeirWcsphGpu *solver, const WeirParticles *particl
     solver->steps_before = 0;
     solver->blown_up = solver->restored = false;
     common->health = (WeirHealth){.has_clock = true, .fluid_particles = solver->fluid_at_start};
-    common->state_copy_stale = true;
-    common->state_work = ++common->work;
+    weir_gpu_solver_replaced(common);
     return WEIR_OK;
 }
 
@@ -281,6 +280,7 @@ static const WeirSolverInterface wcsph_interface = {
     .poll = weir_gpu_solver_poll,
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
+    .diagnose = weir_gpu_solver_diagnose,
     .pass_times = weir_gpu_solver_pass_times,
     .step_time = weir_gpu_solver_step_time,
 };
@@ -350,8 +350,8 @@ static WeirSolver *create(WeirGpu *gpu, const WeirSolverSetup *setup, uint64_t m
     common->health_buffer = WEIR_WCSPH_control;
     common->health_size = sizeof(WeirWcsphControl);
     common->take_health = weir_gpu_wcsph_take_health;
-    common->copy_state = weir_gpu_wcsph_copy_state;
-    common->take_state = weir_gpu_wcsph_take_state;
+    common->state_copy = (WeirGpuCopy){.queue = weir_gpu_wcsph_copy_state, .take = weir_gpu_wcsph_take_state};
+    common->sums_copy = (WeirGpuCopy){.queue = weir_gpu_wcsph_copy_sums, .take = weir_gpu_wcsph_take_sums};
     snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
     *status = make(solver, setup, most_list_bytes, message);
     if (*status == WEIR_OK) return &common->base;

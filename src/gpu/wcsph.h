@@ -41,6 +41,7 @@
     WEIR_BUFFER(vacancy)                                                                                     \
     WEIR_BUFFER(nozzle)                                                                                      \
     WEIR_BUFFER(schedule)                                                                                    \
+    WEIR_BUFFER(fluid_sums)                                                                                  \
     WEIR_SIZES(sort_groups)                                                                                  \
     WEIR_BUFFER(control)
 
@@ -84,6 +85,7 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_SOLID_FORCES_READ,
     WEIR_WCSPH_FIRST_STEP,
     WEIR_WCSPH_HEALTH,
+    WEIR_WCSPH_DIAGNOSE,
     WEIR_WCSPH_PASS_TOTAL
 } WeirWcsphGpuPass;
 
@@ -201,4 +203,6 @@ void weir_gpu_wcsph_piece_sizes(const WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOT
                                 uint64_t piece_sizes[WEIR_WCSPH_PIECES]);
 void weir_gpu_wcsph_take_health(WeirGpuSolver *solver, const void *found);
 void weir_gpu_wcsph_copy_state(WeirGpuSolver *solver);
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, WeirState *state);
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, void *state);
+void weir_gpu_wcsph_copy_sums(WeirGpuSolver *solver);
+WeirStatus weir_gpu_wcsph_take_sums(WeirGpuSolver *solver, void *sums);

@@ -1,5 +1,7 @@
-// From the device to the host: the clock and the particles' health while steps run, and the whole state by id.
+// From the device to the host: the clock and the particles' health while steps run, sums over the fluid, and the whole state
+// by id.
 #include "core/solids.h"
+#include "gpu/sums.h"
 #include "gpu/wcsph.h"
 
 #include <stddef.h>
@@ -98,7 +100,7 @@ void weir_gpu_wcsph_copy_state(WeirGpuSolver *common)
         bool apart = buffers->parts[pieces[n].name] > 1;
         WGPUBuffer from = buffers->handle[pieces[n].name][apart ? pieces[n].copy : 0];
         uint64_t offset = apart ? 0 : pieces[n].copy * buffers->size[pieces[n].name].bytes;
-        weir_readback_copy(common->state_copy, encoder, n, from, offset);
+        weir_readback_copy(common->state_copy.readback, encoder, n, from, offset);
     }
     weir_gpu_submit(common->gpu, encoder, "read");
 }
@@ -117,7 +119,8 @@ typedef struct View {
 static View view_of(const WeirGpuSolver *common)
 {
     const void *at[WEIR_WCSPH_PIECES];
-    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) at[n] = weir_readback_data(common->state_copy, n);
+    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n)
+        at[n] = weir_readback_data(common->state_copy.readback, n);
     return (View){at[0], at[1], at[2], at[3], at[4], at[5], at[6]};
 }
 
@@ -202,8 +205,9 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
     };
 }
 
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, WeirState *state)
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, void *found)
 {
+    WeirState *state = found;
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     View view = view_of(common);
     bool bad = view.control->bad_step != UINT32_MAX;
@@ -221,5 +225,28 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, WeirState *state)
         --state->step;
         state->time -= 0.5 * (double)view.control->dt;
     }
+    return WEIR_OK;
+}
+
+// ---- Sums ----
+
+void weir_gpu_wcsph_copy_sums(WeirGpuSolver *common)
+{
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "diagnose");
+    WeirRecorder recorder = weir_recorder_begin(common, encoder);
+    weir_record(&recorder, WEIR_WCSPH_DIAGNOSE);
+    weir_recorder_end(&recorder);
+    weir_sums_copy(common, encoder, WEIR_WCSPH_fluid_sums);
+    weir_gpu_submit(common->gpu, encoder, "diagnose");
+}
+
+WeirStatus weir_gpu_wcsph_take_sums(WeirGpuSolver *common, void *found)
+{
+    const WeirWcsphGpu *solver = (const WeirWcsphGpu *)common;
+    WeirDiagnosticSums *sums = found;
+    const WeirWcsphControl *control = weir_sums_take(common, sums);
+    if (control->bad_step != UINT32_MAX) return WEIR_ERROR_UNSTABLE;
+    sums->step = solver->steps_before + control->steps;
+    sums->time = seconds_of(control->time);
     return WEIR_OK;
 }

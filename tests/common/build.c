@@ -96,10 +96,10 @@ float *weir_test_read(WeirSim *sim, WeirField field)
     return values;
 }
 
-WeirDiagnostics weir_test_diagnose(WeirSim *sim, bool count_neighbors)
+WeirDiagnostics weir_test_diagnose(WeirSim *sim, uint32_t flags)
 {
     WeirDiagnostics diagnostics;
-    CHECK_SIM(sim, weir_sim_diagnose(sim, count_neighbors, &diagnostics), WEIR_OK);
+    CHECK_SIM(sim, weir_sim_diagnose(sim, flags, &diagnostics), WEIR_OK);
     return diagnostics;
 }
 
@@ -117,7 +117,7 @@ void weir_test_set_state(WeirSim *sim, const float *positions, const float *velo
 
 uint64_t weir_test_hash(WeirSim *sim)
 {
-    return weir_test_diagnose(sim, false).state_hash;
+    return weir_test_diagnose(sim, WEIR_DIAGNOSE_HASH).state_hash;
 }
 
 WeirScene *weir_test_dam(void)

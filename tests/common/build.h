@@ -27,7 +27,7 @@ WeirScene *weir_test_count_scene(uint32_t count, double size, double particle_sp
 
 // malloc'd copy of a field.
 float *weir_test_read(WeirSim *sim, WeirField field);
-WeirDiagnostics weir_test_diagnose(WeirSim *sim, bool count_neighbors);
+WeirDiagnostics weir_test_diagnose(WeirSim *sim, uint32_t flags);
 void weir_test_step(WeirSim *sim, uint32_t steps);
 void weir_test_set_state(WeirSim *sim, const float *positions, const float *velocities);
 uint64_t weir_test_hash(WeirSim *sim);

@@ -156,9 +156,9 @@ static void parameters_change_while_it_runs(const WeirBackend *backend)
     CHECK_NEAR(values[1], 0, 0);
     CHECK_SCENE(scene, weir_scene_get_parameter(scene, "gravity", values), WEIR_OK);
     CHECK_NEAR(values[1], -9.81, 1e-6);
-    double before = weir_test_diagnose(sim, false).momentum[0];
+    double before = weir_test_diagnose(sim, 0).momentum[0];
     weir_test_step(sim, 10);
-    WeirDiagnostics after = weir_test_diagnose(sim, false);
+    WeirDiagnostics after = weir_test_diagnose(sim, 0);
     double mass = weir_sim_constants(sim)->particle_mass * weir_sim_particle_count(sim);
     double pushed = 50 * 10 * weir_sim_parameters(sim)->time_step * mass;
     CHECK_NEAR(after.momentum[0] - before, pushed, 0.25 * pushed); // the left wall pushes as well

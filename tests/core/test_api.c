@@ -135,7 +135,7 @@ static void time_counts_the_steps_as_taken(void **state)
     CHECK_SIM(sim, weir_sim_set_parameter(sim, "time_step", &second, 1), WEIR_OK);
     weir_test_step(sim, 10);
     CHECK_NEAR(weir_sim_time(sim), 10 * first + 10 * second, 1e-15);
-    CHECK_NEAR(weir_test_diagnose(sim, false).time, 10 * first + 10 * second, 1e-15);
+    CHECK_NEAR(weir_test_diagnose(sim, 0).time, 10 * first + 10 * second, 1e-15);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);
 }

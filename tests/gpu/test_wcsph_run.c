@@ -32,6 +32,12 @@ static WeirState read_state(WeirSolver *solver)
     return state;
 }
 
+static WeirStatus diagnose(WeirSolver *solver)
+{
+    WeirDiagnosticSums sums;
+    return solver->interface->diagnose(solver, &sums);
+}
+
 static uint64_t mix(uint64_t hash, const void *data, size_t size)
 {
     const unsigned char *bytes = data;
@@ -67,6 +73,7 @@ static uint64_t run(const char *name, Course course)
     ((WeirWcsphGpu *)solver)->indirect = course.indirect;
     for (uint32_t done = 0; done < course.steps; done += course.at_a_time) {
         take_steps(solver, course.at_a_time, INFINITY);
+        if (course.reads) diagnose(solver);
         if (course.reads) read_state(solver);
     }
     uint64_t hash = hash_of(solver, test.world.solid_count);
@@ -246,6 +253,7 @@ static void a_blow_up_is_found(void **state)
         assert_true(health.first_bad_id <= 57);
         CHECK_NEAR(health.first_bad_position[0], place[0], 0.4);
         CHECK_NEAR(health.first_bad_position[1], place[1], 0.4);
+        assert_int_equal(diagnose(solver), WEIR_ERROR_UNSTABLE); // ask a read
         // It stopped there.
         take_steps(solver, 5, INFINITY);
         assert_true(health_of(solver).steps <= 1);
@@ -282,6 +290,7 @@ static void the_last_good_state_is_kept(void **state)
             fastest = fmaxf(fastest, hypotf(last.velocity[2 * i], last.velocity[2 * i + 1]));
         assert_true(fastest > 1 && fastest <= 80);
         assert_true(all_finite(last.solids[1].position, 4));
+        assert_int_equal(diagnose(solver), WEIR_ERROR_UNSTABLE);
         // It stays, and a new state goes on.
         uint64_t hash = hash_of(solver, test.world.solid_count);
         take_steps(solver, 3, INFINITY);
@@ -290,6 +299,7 @@ static void the_last_good_state_is_kept(void **state)
         assert_int_equal(health_of(solver).bad_particles, 0);
         take_steps(solver, 1, INFINITY);
         assert_int_equal(health_of(solver).steps, 1);
+        assert_int_equal(diagnose(solver), WEIR_OK);
         solver->interface->destroy(solver);
         weir_test_world_free(&test);
     }

@@ -64,5 +64,6 @@ export function newStats(): EngineStats {
   };
 }
 
-// Diagnostics copy the whole state to the host: rarer for more particles.
+// On the CPU diagnostics take a look at every particle, and probes too; on the GPU probes copy all of them to the host: rarer
+// for more particles.
 export const diagnoseInterval = (particles: number): number => Math.max(100, particles / 1000);

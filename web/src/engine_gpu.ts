@@ -14,6 +14,7 @@ const longestFrameMs = 50; // that counts for a frame's budget
 const snapshotMs = 1000;
 const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
+const diagnoseMs = 100; // the device sums up what the plots show
 const settleMs = 1000; // for what is still on its way when the picture stops
 const repaintMs = 500; // of a picture that stands still: a browser may lose it
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
@@ -258,10 +259,10 @@ export class GpuEngine implements Engine {
   #measure(sim: Sim): void {
     const now = performance.now();
     if (this.#stopped || this.#destroyed) return;
+    this.#diagnose(sim, now);
     // One copy of the state at a time.
-    if (this.#snapshotPhase === 'idle' && !this.#probing) this.#diagnose(sim, now);
-    if (this.#snapshotPhase === 'idle' && !this.#diagnosing) this.#probe(sim, now);
-    if (!this.#diagnosing && !this.#probing) this.#takeSnapshot(sim, now);
+    if (this.#snapshotPhase === 'idle') this.#probe(sim, now);
+    if (!this.#probing) this.#takeSnapshot(sim, now);
     if (now - this.#timed > passTimesMs) {
       this.stats.passes = sim.passTimes();
       this.stats.memory = this.gpu.memory;
@@ -271,8 +272,8 @@ export class GpuEngine implements Engine {
   }
 
   #diagnose(sim: Sim, now: number): void {
-    if (!this.#diagnosing && now - this.#diagnosed < diagnoseInterval(sim.particleCount)) return;
-    const diagnostics = sim.diagnose(false);
+    if (!this.#diagnosing && now - this.#diagnosed < diagnoseMs) return;
+    const diagnostics = sim.diagnose();
     this.#diagnosing = diagnostics === null;
     if (diagnostics) {
       this.stats.diagnostics = diagnostics;

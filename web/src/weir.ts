@@ -21,6 +21,8 @@ export type ParameterInfo = {
 };
 
 export const enum Field { position = 0, velocity = 1, acceleration = 2, density = 3, pressure = 4, group = 5 }
+// What diagnose() is asked for beside the rest, by bit: on a GPU a copy of all particles.
+export const enum Diagnose { neighbors = 1, hash = 2 }
 export const enum ToolKind { none = 0, push = 1, pull = 2, stir = 3 }
 export const enum ColorBy { speed = 0, density = 1, densityError = 2, pressure = 3 }
 
@@ -35,7 +37,7 @@ export type Diagnostics = {
   maxSpeed: number;
   meanNeighbors: number; // negative if not asked for
   lostParticles: number;
-  stateHash: string; // 16 hexadecimal digits
+  stateHash: string; // 16 hexadecimal digits; '' if not asked for
 };
 
 export type PassTime = { name: string; milliseconds: number };
@@ -605,18 +607,19 @@ export class Sim {
     return block.view;
   }
 
-  // null while the GPU copies.
-  diagnose(countNeighbors: boolean): Diagnostics | null {
+  // `flags` of Diagnose. null while the GPU copies.
+  diagnose(flags = 0): Diagnostics | null {
     const { memory, c } = this.#context;
     return memory.scratch(8 * DIAGNOSTIC_COUNT, (at) => {
-      const status = c.weir_web_sim_diagnose(this.pointer, countNeighbors ? 1 : 0, at);
+      const status = c.weir_web_sim_diagnose(this.pointer, flags, at);
       if (status === Status.pending) return null;
       this.#throwIf(status);
       const [step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy] = memory.doubles(at, 6);
       const [maxSpeed, meanNeighbors, lostParticles, high, low] = memory.doubles(at + 72, 5);
       return {
         step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy, maxSpeed, meanNeighbors,
-        lostParticles, momentum: triple(memory.doubles(at + 48, 3), 0), stateHash: hex(high) + hex(low),
+        lostParticles, momentum: triple(memory.doubles(at + 48, 3), 0),
+        stateHash: flags & Diagnose.hash ? hex(high) + hex(low) : '',
       } as Diagnostics;
     });
   }
