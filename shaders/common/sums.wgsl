@@ -58,10 +58,3 @@ fn leave_sums(sums: FluidSums, local: u32, group: u32) {
         fluid_sums[group] = partial[0];
     }
 }
-
-// Particles of a workgroup's share: the first, and the end.
-fn share_of(group: u32, workgroups: vec3u) -> vec2u {
-    let groups = workgroups.x * workgroups.y;
-    let share = (constants.particle_count + groups - 1u) / groups;
-    return min(vec2u(group * share, group * share + share), vec2u(constants.particle_count));
-}

@@ -6,7 +6,7 @@
 fn diagnose(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
             @builtin(local_invocation_index) local: u32) {
     let group = workgroup_index(workgroup, workgroups);
-    let share = share_of(group, workgroups);
+    let share = particle_share(group, workgroups);
     var sums = FluidSums();
     for (var i = share.x + local; i < share.y; i += WORKGROUP_SIZE) {
         let particle = particle_at(i);

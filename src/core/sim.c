@@ -79,6 +79,8 @@ static WeirStatus start(WeirSim *sim, uint32_t threads)
         .constants = sim->constants,
         .world = &world,
         .threads = threads,
+        .probes = sim->scene->probe,
+        .probe_count = sim->scene->probe_count,
     };
     WeirMessage message = {""};
     sim->solver = sim->backend->create_solver(sim->backend, &setup, &status, &message);
@@ -556,11 +558,26 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
 }
 
 // `time` as a solver gives it.
-static void set_moment(const WeirSim *sim, uint64_t step, double time, WeirDiagnostics *diagnostics)
+static double time_of(const WeirSim *sim, uint64_t step, double time)
 {
-    diagnostics->step = step;
-    diagnostics->time = time >= 0.0 ? sim->time_given + time
-                                    : sim->time - (double)(sim->steps - step) * sim->parameters.time_step;
+    if (time >= 0.0) return sim->time_given + time;
+    return sim->time - (double)(sim->steps - step) * sim->parameters.time_step;
+}
+
+double weir_sim_time_of(const WeirSim *sim, const WeirState *state)
+{
+    return time_of(sim, state->step, state->time);
+}
+
+WeirStatus weir_sim_gather(WeirSim *sim, WeirGathered *gathered)
+{
+    if (sim->solver && sim->solver->interface->gather && sim->scene->probe_count > 0) {
+        WeirStatus status = sim->solver->interface->gather(sim->solver, gathered);
+        gathered->state.step += sim->steps_given;
+        if (status != WEIR_ERROR_UNSTABLE) return pass_on(sim, status);
+    }
+    gathered->found = NULL;
+    return weir_sim_state(sim, &gathered->state);
 }
 
 static WeirStatus diagnose_there(WeirSim *sim, WeirDiagnostics *diagnostics)
@@ -570,7 +587,8 @@ static WeirStatus diagnose_there(WeirSim *sim, WeirDiagnostics *diagnostics)
     if (status == WEIR_ERROR_UNSTABLE) return status;
     if (status) return pass_on(sim, status);
     weir_diagnose_sums(&sums, &sim->parameters, &sim->constants, diagnostics);
-    set_moment(sim, sim->steps_given + sums.step, sums.time, diagnostics);
+    diagnostics->step = sim->steps_given + sums.step;
+    diagnostics->time = time_of(sim, diagnostics->step, sums.time);
     return WEIR_OK;
 }
 
@@ -585,7 +603,8 @@ WeirStatus weir_sim_diagnose(WeirSim *sim, uint32_t flags, WeirDiagnostics *diag
     if (status) return status;
     status = weir_diagnose(&state, &sim->parameters, &sim->constants, flags, diagnostics);
     if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
-    set_moment(sim, state.step, state.time, diagnostics);
+    diagnostics->step = state.step;
+    diagnostics->time = weir_sim_time_of(sim, &state);
     return WEIR_OK;
 }
 

@@ -35,6 +35,15 @@ typedef struct WeirDiagnosticSums {
     double speed2_max, density_error_max;
 } WeirDiagnosticSums;
 
+// What a scene's probes look at (probe.h), and nothing else.
+typedef struct WeirGathered {
+    // Fluid near the points and lines that they look at; without acceleration and group. Solids if a probe measures a force.
+    WeirState state;
+    // Per probe. Of a front: the largest dot product of a particle's place with its direction, -INFINITY without fluid; of a
+    // mass: how many particles of fluid are inside.
+    const double *found;
+} WeirGathered;
+
 // What the solver found since set_state().
 typedef struct WeirHealth {
     uint32_t bad_particles;  // faster than constants.speed_limit or not finite, counted over all steps
@@ -77,6 +86,10 @@ typedef struct WeirSolverInterface {
     // they are under way; WEIR_ERROR_UNSTABLE after a blow-up, when only read() tells the last good state. NULL where read()
     // is as fast.
     WeirStatus (*diagnose)(WeirSolver *solver, WeirDiagnosticSums *sums);
+    // For the probes of the solver's setup, without copying the rest, and with forces evaluated only if one measures them.
+    // WEIR_PENDING and WEIR_ERROR_UNSTABLE as above, the latter also where more fluid is gathered than ever should be. NULL
+    // where read() is as fast.
+    WeirStatus (*gather)(WeirSolver *solver, WeirGathered *gathered);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
     // Milliseconds per step; 0: not known. NULL: those of all passes.
     double (*step_time)(const WeirSolver *solver);
@@ -98,8 +111,10 @@ typedef struct WeirSolverSetup {
     WeirMethod method;
     WeirParameters parameters;
     WeirConstants constants;
-    const WeirWorld *world; // copied
-    uint32_t threads;       // as in WeirSimOptions
+    const WeirWorld *world;              // copied
+    uint32_t threads;                    // as in WeirSimOptions
+    const struct WeirProbePiece *probes; // for gather(); copied
+    uint32_t probe_count;
 } WeirSolverSetup;
 
 struct WeirBackend {

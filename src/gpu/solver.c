@@ -64,6 +64,7 @@ void weir_gpu_solver_destroy(WeirGpuSolver *solver)
 {
     weir_readback_destroy(solver->state_copy.readback);
     weir_readback_destroy(solver->sums_copy.readback);
+    weir_readback_destroy(solver->gather_copy.readback);
     weir_readback_destroy(solver->health_copy);
     weir_profile_destroy(solver->profile);
     weir_passes_destroy(&solver->passes);
@@ -257,7 +258,7 @@ WeirStatus weir_gpu_solver_wait(WeirSolver *base)
 
 void weir_gpu_solver_replaced(WeirGpuSolver *solver)
 {
-    solver->state_copy.stale = solver->sums_copy.stale = true;
+    solver->state_copy.stale = solver->sums_copy.stale = solver->gather_copy.stale = true;
     solver->state_work = ++solver->work;
 }
 
@@ -299,6 +300,12 @@ WeirStatus weir_gpu_solver_diagnose(WeirSolver *base, WeirDiagnosticSums *sums)
 {
     WeirGpuSolver *solver = (WeirGpuSolver *)base;
     return fetch(solver, &solver->sums_copy, "diagnose", sums);
+}
+
+WeirStatus weir_gpu_solver_gather(WeirSolver *base, WeirGathered *gathered)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    return fetch(solver, &solver->gather_copy, "gather", gathered);
 }
 
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)

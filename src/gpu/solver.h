@@ -57,7 +57,7 @@ struct WeirGpuSolver {
     void (*take_health)(WeirGpuSolver *solver, const void *found);
     WeirHealth health;
 
-    WeirGpuCopy state_copy, sums_copy; // of a WeirState, of WeirDiagnosticSums
+    WeirGpuCopy state_copy, sums_copy, gather_copy; // of a WeirState, WeirDiagnosticSums, WeirGathered
 };
 
 // Makes report, buffers (`sizes` by buffer), passes, profile and the copies' readbacks; that of the state has `pieces` of
@@ -102,5 +102,6 @@ WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
 WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
 WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);
 WeirStatus weir_gpu_solver_diagnose(WeirSolver *solver, WeirDiagnosticSums *sums);
+WeirStatus weir_gpu_solver_gather(WeirSolver *solver, WeirGathered *gathered);
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
 double weir_gpu_solver_step_time(const WeirSolver *solver);

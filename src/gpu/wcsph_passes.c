@@ -47,6 +47,7 @@ SHADER(wcsph_finish)
 SHADER(wcsph_first_step)
 SHADER(wcsph_health)
 SHADER(wcsph_diagnose)
+SHADER(wcsph_gather)
 
 static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
     [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, false, NULL, NULL},
@@ -167,6 +168,8 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(coordinate) | BIT(id), BIT(control),
                            WEIR_ITEMS_ONE},
     [WEIR_WCSPH_DIAGNOSE] = {WCSPH(diagnose), NULL, sums_part, PARTICLES, BIT(fluid_sums), WEIR_ITEMS_SUMS},
+    [WEIR_WCSPH_GATHER] = {WCSPH(gather), NULL, NULL, PARTICLES | BIT(id) | BIT(looks),
+                           BIT(gathered) | BIT(found), WEIR_ITEMS_SUMS},
 };
 
 #define PARTS(dimension)                                                                                     \
@@ -225,6 +228,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_nozzle].bytes = 16 * at_least_one(world->point_count);
     sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
     sizes[WEIR_WCSPH_fluid_sums].bytes = weir_sums_bytes(constants->particle_count);
+    weir_gpu_wcsph_probe_sizes(traits, sizes);
     sizes[WEIR_WCSPH_sort_groups].bytes = 16 * WEIR_SORT_SIZES;
     sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
@@ -277,6 +281,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("DRAINS", drains > 0 ? drains : 1);
     NUMBER("DRAIN_GROUPS", traits->drain_group_count);
     NUMBER("DRAIN_GROUP", (uint32_t)WEIR_DRAIN_GROUP);
+    NUMBER("MOST_LOOKS", (uint32_t)WEIR_MAX_PROBES);
 #undef NUMBER
 #undef FLAG
 #undef APPEND
@@ -284,6 +289,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
                       PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(BEGIN_READ) | PASS(FORCES_READ) |
                       PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH) | PASS(DIAGNOSE);
+    if (traits->probe_count > 0) needed |= PASS(GATHER);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     needed |= traits->solid_count > 0 ? PASS(WALLS) | PASS(SOLID_FORCES_READ) : PASS(TIME_STEP);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);

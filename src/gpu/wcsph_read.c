@@ -124,17 +124,17 @@ static View view_of(const WeirGpuSolver *common)
     return (View){at[0], at[1], at[2], at[3], at[4], at[5], at[6]};
 }
 
-static void take_solids(WeirWcsphGpu *solver, const View *view)
+void weir_gpu_wcsph_take_solids(WeirWcsphGpu *solver, const WeirSolidState *solids, const float *sums)
 {
     const WeirWcsphTraits *traits = &solver->traits;
-    memcpy(solver->host_solids, view->solids, traits->solid_count * sizeof *solver->host_solids);
+    memcpy(solver->host_solids, solids, traits->solid_count * sizeof *solver->host_solids);
     for (uint32_t n = 0; n < traits->solid_count; ++n) {
         double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
         for (uint32_t b = 0; b < traits->block_count; ++b) {
             if (solver->blocks[b][0] != n) continue;
             for (int axis = 0; axis < 3; ++axis) {
-                force[axis] += (double)view->sums[16 * b + axis];
-                torque[axis] += (double)view->sums[16 * b + 4 + axis];
+                force[axis] += (double)sums[16 * b + axis];
+                torque[axis] += (double)sums[16 * b + 4 + axis];
             }
         }
         for (int axis = 0; axis < 3; ++axis) {
@@ -163,11 +163,18 @@ static double wrapped(int32_t place, uint32_t period)
     return place < 0 ? (double)place + period : place >= (int32_t)period ? (double)place - period : place;
 }
 
+void weir_gpu_wcsph_position(const WeirConstants *constants, const int32_t *place, float *position)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        position[axis] = (float)((double)constants->origin[axis] +
+                                 wrapped(place[axis], periods[axis]) * (double)constants->quantum);
+}
+
 static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
 {
     const WeirConstants *constants = &solver->common.constants;
     uint32_t count = constants->particle_count, dimension = constants->dimension;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float *position = solver->host, *velocity = position + (size_t)dimension * count;
     float *acceleration = velocity + (size_t)dimension * count;
     float *density = acceleration + (size_t)dimension * count, *pressure = density + count;
@@ -179,10 +186,9 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
         memcpy(own, view->motion + 4 * i, sizeof own);
         if (solid && group - WEIR_GROUP_SOLID < solver->traits.solid_count && id >= constants->first_solid)
             solid_velocity(solver, group, id, own);
+        weir_gpu_wcsph_position(constants, view->coordinate + 4 * i, position + (size_t)dimension * id);
         for (uint32_t axis = 0; axis < dimension; ++axis) {
             size_t k = (size_t)dimension * id + axis;
-            double place = wrapped(view->coordinate[4 * i + axis], periods[axis]);
-            position[k] = (float)((double)constants->origin[axis] + place * (double)constants->quantum);
             velocity[k] = empty ? 0.0f : own[axis];
             acceleration[k] = empty ? 0.0f : view->kicked[4 * i + axis];
         }
@@ -193,7 +199,6 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
     return (WeirState){
         .count = count,
         .dimension = dimension,
-        .step = solver->steps_before + view->control->steps,
         .position = position,
         .velocity = velocity,
         .acceleration = acceleration,
@@ -201,8 +206,13 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
         .pressure = pressure,
         .group = solver->host_group,
         .solids = solver->host_solids,
-        .time = seconds_of(view->control->time),
     };
+}
+
+void weir_gpu_wcsph_take_moment(const WeirWcsphGpu *solver, const WeirWcsphControl *control, WeirState *state)
+{
+    state->step = solver->steps_before + control->steps;
+    state->time = seconds_of(control->time);
 }
 
 WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, void *found)
@@ -218,8 +228,9 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, void *found)
         solver->blown_up = true;
         return WEIR_PENDING;
     }
-    take_solids(solver, &view);
+    weir_gpu_wcsph_take_solids(solver, view.solids, view.sums);
     *state = order_by_id(solver, &view);
+    weir_gpu_wcsph_take_moment(solver, view.control, state);
     if (bad) {
         // The sorted particles are half a step before the end of the bad one.
         --state->step;

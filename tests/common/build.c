@@ -135,3 +135,42 @@ WeirScene *weir_test_drops(void)
     weir_test_ball(scene, 0.65, 0.53, 0.14, -1, 0.25);
     return scene;
 }
+
+void weir_test_box_of(WeirScene *scene, const char *piece, const double min[3], const double max[3])
+{
+    char path[64];
+    uint32_t dimension = weir_scene_dimension(scene);
+    snprintf(path, sizeof path, "%s.min", piece);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, min, dimension), WEIR_OK);
+    snprintf(path, sizeof path, "%s.max", piece);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, max, dimension), WEIR_OK);
+}
+
+WeirScene *weir_test_everything(uint32_t dimension)
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
+    weir_test_set(scene, "particle_spacing", dimension == 2 ? 0.02 : 0.04);
+    weir_test_set(scene, "sound_speed", 30);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){-3, 7, 1}, (double[]){-2, 7.6, 1.36}),
+                WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_add_box(scene, (double[]){-3, 7, 1}, (double[]){-2.6, 7.4, 1.36},
+                                   (double[]){0.5, -0.25, 0.125}),
+                WEIR_OK);
+    weir_test_box_of(scene, "walls[0].box", (double[]){-2.5, 7, 1}, (double[]){-2.4, 7.1, 1.36});
+    weir_test_box_of(scene, "bodies[0].box", (double[]){-2.52, 7.2, 1.08}, (double[]){-2.4, 7.32, 1.28});
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 500), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "bodies[0].name", "body"), WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_set_numbers(scene, "emitters[0].center", (double[]){-2.2, 7.4, 1.18}, dimension),
+                WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_set_numbers(scene, "emitters[0].direction", (double[]){0, -1, 0}, dimension),
+                WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "emitters[0].size", 0.12), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "emitters[0].speed", 3), WEIR_OK);
+    weir_test_box_of(scene, "drains[0]", (double[]){-2.3, 7.1, 1}, (double[]){-2.1, 7.3, 1.36});
+    return scene;
+}

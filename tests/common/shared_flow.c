@@ -140,7 +140,7 @@ static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *b
     WeirDiagnostics last = weir_test_diagnose(sim, 0), same = weir_test_diagnose(sim, WEIR_DIAGNOSE_HASH);
     same.state_hash = 0;
     assert_memory_equal(&last, &same, sizeof last);
-    assert_true(isfinite(last.kinetic_energy) && last.max_speed > 1);
+    assert_true(isfinite(last.kinetic_energy));
     // It may be one in the middle of a step, half of which the fastest good particle has gone from the walls' seal.
     double limit = 4 * weir_sim_clock(sim).sound_speed, reach = 0.02 + limit * 2.5 * stable;
     for (uint32_t k = 0; k < 2 * weir_sim_fluid_slots(sim); ++k) {

@@ -1,5 +1,6 @@
 // How runs of `wcsph` on the GPU behave: equal bits, batches, end times, health, the last good state, live parameters.
 #include "adapter.h"
+#include "core/probe.h"
 #include "gpu/wcsph.h"
 #include "worlds.h"
 
@@ -73,7 +74,7 @@ static uint64_t run(const char *name, Course course)
     ((WeirWcsphGpu *)solver)->indirect = course.indirect;
     for (uint32_t done = 0; done < course.steps; done += course.at_a_time) {
         take_steps(solver, course.at_a_time, INFINITY);
-        if (course.reads) diagnose(solver);
+        if (course.reads) assert_int_equal(diagnose(solver), WEIR_OK);
         if (course.reads) read_state(solver);
     }
     uint64_t hash = hash_of(solver, test.world.solid_count);
@@ -305,6 +306,57 @@ static void the_last_good_state_is_kept(void **state)
     }
 }
 
+static WeirStatus gather(WeirSolver *solver, WeirGathered *gathered)
+{
+    return solver->interface->gather(solver, gathered);
+}
+
+// Probes get the fluid around them and no more; where that is more than was reckoned with, or after a blow-up, a read tells.
+static void probes_get_what_they_look_at(void **state)
+{
+    (void)state;
+    const WeirProbePiece probes[] = {{.kind = WEIR_PROBE_PRESSURE, .position = {0.25, 0.3, 0}},
+                                     {.kind = WEIR_PROBE_FRONT, .direction = {3, 0, 0}},
+                                     {.kind = WEIR_PROBE_MASS, .max = {0.5, 0.3, 0}}};
+    WeirTestWorld test = weir_test_case("dam_2d");
+    WeirSolverSetup setup = weir_test_world_setup(&test);
+    setup.probes = probes;
+    setup.probe_count = 3;
+    WeirStatus status = WEIR_OK;
+    WeirMessage message = {""};
+    WeirSolver *solver =
+        weir_gpu_backend(gpu)->create_solver(weir_gpu_backend(gpu), &setup, &status, &message);
+    assert_non_null(solver);
+    take_steps(solver, 9, INFINITY);
+    WeirGathered gathered;
+    assert_int_equal(gather(solver, &gathered), WEIR_OK);
+    WeirState near = gathered.state, all = read_state(solver);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < test.world.particles.fluid_slots; ++i) {
+        const float *place = all.position + 2 * i;
+        if (!(hypot((double)place[0] - 0.25, (double)place[1] - 0.3) < 0.15)) continue;
+        assert_memory_equal(near.position + 2 * count, place, 2 * sizeof *place); // in order of id
+        assert_memory_equal(near.velocity + 2 * count, all.velocity + 2 * i, 2 * sizeof *place);
+        assert_true(near.density[count] == all.density[i] && near.pressure[count] == all.pressure[i]);
+        ++count;
+    }
+    assert_int_equal(near.count, count);
+    assert_true(count > 20 && near.step == 9 && near.time == all.time);
+    CHECK_NEAR(gathered.found[1], 3 * 0.5, 0.3);
+    CHECK_NEAR(gathered.found[2], 60, 10);
+    WeirWcsphGpu *own = (WeirWcsphGpu *)solver;
+    own->traits.most_gathered = count - 1;
+    assert_int_equal(gather(solver, &gathered), WEIR_ERROR_UNSTABLE);
+    own->traits.most_gathered = count;
+    assert_int_equal(gather(solver, &gathered), WEIR_OK);
+    set_bad(&test, 57, NAN, 0);
+    assert_int_equal(solver->interface->set_state(solver, &test.world.particles), WEIR_OK);
+    take_steps(solver, 1, INFINITY);
+    assert_int_equal(gather(solver, &gathered), WEIR_ERROR_UNSTABLE);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
 // The upper body overtakes the lower one, and contact holds them apart: no two of their particles come closer than half a
 // spacing.
 static void bodies_push_each_other(void **state)
@@ -492,6 +544,7 @@ int main(void)
         cmocka_unit_test(runs_end_in_time),
         cmocka_unit_test(a_blow_up_is_found),
         cmocka_unit_test(the_last_good_state_is_kept),
+        cmocka_unit_test(probes_get_what_they_look_at),
         cmocka_unit_test(bodies_push_each_other),
         cmocka_unit_test(taps_never_run_dry),
         cmocka_unit_test(sorts_are_offered_for_layers),

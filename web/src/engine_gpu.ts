@@ -14,7 +14,7 @@ const longestFrameMs = 50; // that counts for a frame's budget
 const snapshotMs = 1000;
 const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
-const diagnoseMs = 100; // the device sums up what the plots show
+const diagnoseMs = 100; // the device sums up what the plots show, and gathers what probes of wcsph look at
 const settleMs = 1000; // for what is still on its way when the picture stops
 const repaintMs = 500; // of a picture that stands still: a browser may lose it
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
@@ -260,9 +260,9 @@ export class GpuEngine implements Engine {
     const now = performance.now();
     if (this.#stopped || this.#destroyed) return;
     this.#diagnose(sim, now);
-    // One copy of the state at a time.
-    if (this.#snapshotPhase === 'idle') this.#probe(sim, now);
-    if (!this.#probing) this.#takeSnapshot(sim, now);
+    // One copy of the state at a time; the probes of wcsph need none.
+    if (this.#wcsph || this.#snapshotPhase === 'idle') this.#probe(sim, now);
+    if (this.#wcsph || !this.#probing) this.#takeSnapshot(sim, now);
     if (now - this.#timed > passTimesMs) {
       this.stats.passes = sim.passTimes();
       this.stats.memory = this.gpu.memory;
@@ -282,7 +282,8 @@ export class GpuEngine implements Engine {
   }
 
   #probe(sim: Sim, now: number): void {
-    if (!this.#probing && now - this.#probed < 0.7 * diagnoseInterval(sim.particleCount)) return;
+    const interval = this.#wcsph ? diagnoseMs : diagnoseInterval(sim.particleCount);
+    if (!this.#probing && now - this.#probed < 0.7 * interval) return;
     const samples = this.#probes ? this.#probes.update() : [];
     this.#probing = samples === null;
     if (!samples) return;
