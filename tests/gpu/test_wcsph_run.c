@@ -1,6 +1,7 @@
 // How runs of `wcsph` on the GPU behave: equal bits, batches, end times, health, the last good state, live parameters.
 #include "adapter.h"
 #include "core/probe.h"
+#include "core/sim.h"
 #include "gpu/wcsph.h"
 #include "worlds.h"
 
@@ -357,6 +358,32 @@ static void probes_get_what_they_look_at(void **state)
     weir_test_world_free(&test);
 }
 
+// More ids than one digit of the order has.
+static void probes_get_it_in_order(void **state)
+{
+    (void)state;
+    WeirScene *scene = weir_test_scene(0.02, 0.06, 0, 3);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    weir_test_box(scene, 0, 0, 3, 2.4);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "probes[0].kind", "height"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "probes[0].position", (double[]){1.5, 0}, 2), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, weir_gpu_backend(gpu), 1);
+    WeirGathered gathered;
+    WeirState all;
+    CHECK_SIM(sim, weir_sim_gather(sim, &gathered), WEIR_OK);
+    CHECK_SIM(sim, weir_sim_state(sim, &all), WEIR_OK);
+    uint32_t count = 0, last = 0;
+    for (uint32_t i = 0; i < weir_sim_fluid_slots(sim); ++i) {
+        const float *place = all.position + 2 * i;
+        if (!(fabs((double)place[0] - 1.5) < 0.06)) continue;
+        assert_memory_equal(gathered.state.position + 2 * count++, place, 2 * sizeof *place);
+        last = i;
+    }
+    assert_true(gathered.state.count == count && count > 500 && last > 1 << 14);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 // The upper body overtakes the lower one, and contact holds them apart: no two of their particles come closer than half a
 // spacing.
 static void bodies_push_each_other(void **state)
@@ -536,6 +563,8 @@ int main(void)
     gpu = weir_test_gpu(NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(probes_get_what_they_look_at),
+        cmocka_unit_test(probes_get_it_in_order),
         cmocka_unit_test(equal_runs_give_equal_bits),
         cmocka_unit_test(dispatches_and_checks_change_nothing),
         cmocka_unit_test(buffers_in_parts_change_nothing),
@@ -544,7 +573,6 @@ int main(void)
         cmocka_unit_test(runs_end_in_time),
         cmocka_unit_test(a_blow_up_is_found),
         cmocka_unit_test(the_last_good_state_is_kept),
-        cmocka_unit_test(probes_get_what_they_look_at),
         cmocka_unit_test(bodies_push_each_other),
         cmocka_unit_test(taps_never_run_dry),
         cmocka_unit_test(sorts_are_offered_for_layers),
