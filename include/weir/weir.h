@@ -211,6 +211,10 @@ uint32_t weir_field_components(WeirField field, uint32_t dimension);
 // copy that it started has arrived (then the values are those of the step at which it was started).
 WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t capacity);
 
+// Positions and velocities of one moment: what weir_sim_read() of both gives natively, from one copy in a browser too.
+// `capacity`: of each.
+WeirStatus weir_sim_read_motion(WeirSim *sim, float *positions, float *velocities, size_t capacity);
+
 // What a simulation knows of itself while it runs, without reading the particles. `mueller` knows step and time
 // only; the rest is NaN or 0.
 typedef struct WeirClock {

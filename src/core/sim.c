@@ -505,9 +505,10 @@ static WeirStatus read_state(WeirSim *sim, bool motion, WeirState *state)
     const WeirSolverInterface *interface = sim->solver->interface;
     motion = motion && interface->read_motion;
     if (!sim->state_is_current && !(motion && sim->motion_is_current)) {
-        WeirStatus status = pass_on(sim, motion ? interface->read_motion(sim->solver, &sim->state)
-                                                : interface->read(sim->solver, &sim->state));
-        if (status) return status;
+        WeirStatus status = motion ? interface->read_motion(sim->solver, &sim->state) : WEIR_OK;
+        if (status == WEIR_ERROR_UNSTABLE) motion = false;
+        if (!motion) status = interface->read(sim->solver, &sim->state);
+        if (status) return pass_on(sim, status);
         sim->state.step += sim->steps_given;
         sim->motion_is_current = sim->state.step == sim->steps;
         sim->state_is_current = !motion && sim->motion_is_current;
@@ -554,6 +555,21 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
         [WEIR_FIELD_PRESSURE] = state.pressure,
     };
     memcpy(values, fields[field], floats * sizeof *values);
+    return WEIR_OK;
+}
+
+WeirStatus weir_sim_read_motion(WeirSim *sim, float *positions, float *velocities, size_t capacity)
+{
+    size_t floats = (size_t)sim->particle_count * sim->scene->dimension;
+    if (capacity < floats) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "capacity: %zu floats; %zu are needed", capacity,
+                         floats);
+    }
+    WeirState state = {0};
+    WeirStatus status = read_state(sim, true, &state);
+    if (status) return status;
+    memcpy(positions, state.position, floats * sizeof *positions);
+    memcpy(velocities, state.velocity, floats * sizeof *velocities);
     return WEIR_OK;
 }
 

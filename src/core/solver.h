@@ -80,11 +80,11 @@ typedef struct WeirSolverInterface {
     // WEIR_PENDING while the copy is under way. wcsph, after a blow-up: the last good state, on the CPU at most 64 steps
     // old, on the GPU that of the middle of the bad step.
     WeirStatus (*read)(WeirSolver *solver, WeirState *state);
-    // The same without evaluating: position, velocity, group and time alone. NULL where it would be no faster.
+    // The same without evaluating: position, velocity, group and time alone. WEIR_ERROR_UNSTABLE after a blow-up: only read()
+    // tells. NULL where it would be no faster.
     WeirStatus (*read_motion)(WeirSolver *solver, WeirState *state);
     // The sums of weir_sum_fluid() without copying the particles or evaluating forces; to single precision. WEIR_PENDING while
-    // they are under way; WEIR_ERROR_UNSTABLE after a blow-up, when only read() tells the last good state. NULL where read()
-    // is as fast.
+    // they are under way; WEIR_ERROR_UNSTABLE and NULL as above.
     WeirStatus (*diagnose)(WeirSolver *solver, WeirDiagnosticSums *sums);
     // For the probes of the solver's setup, without copying the rest, and with forces evaluated only if one measures them.
     // WEIR_PENDING and WEIR_ERROR_UNSTABLE as above, the latter also where more fluid is gathered than ever should be. NULL

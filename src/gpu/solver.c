@@ -293,7 +293,15 @@ static WeirStatus fetch(WeirGpuSolver *solver, WeirGpuCopy *copy, const char *wh
 WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
 {
     WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    solver->wants_motion = false;
     return fetch(solver, &solver->state_copy, "read", state);
+}
+
+WeirStatus weir_gpu_solver_read_motion(WeirSolver *base, WeirState *state)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    solver->wants_motion = true;
+    return fetch(solver, &solver->state_copy, "read_motion", state);
 }
 
 WeirStatus weir_gpu_solver_diagnose(WeirSolver *base, WeirDiagnosticSums *sums)

@@ -57,6 +57,7 @@ struct WeirGpuSolver {
     void (*take_health)(WeirGpuSolver *solver, const void *found);
     WeirHealth health;
 
+    bool wants_motion, copied_motion;               // of the state copy: position, velocity and group alone
     WeirGpuCopy state_copy, sums_copy, gather_copy; // of a WeirState, WeirDiagnosticSums, WeirGathered
 };
 
@@ -101,6 +102,7 @@ WeirStatus weir_gpu_solver_configure(WeirSolver *solver, const WeirParameters *p
 WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
 WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
 WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);
+WeirStatus weir_gpu_solver_read_motion(WeirSolver *solver, WeirState *state);
 WeirStatus weir_gpu_solver_diagnose(WeirSolver *solver, WeirDiagnosticSums *sums);
 WeirStatus weir_gpu_solver_gather(WeirSolver *solver, WeirGathered *gathered);
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);

@@ -282,6 +282,7 @@ static const WeirSolverInterface wcsph_interface = {
     .poll = weir_gpu_solver_poll,
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
+    .read_motion = weir_gpu_solver_read_motion,
     .diagnose = weir_gpu_solver_diagnose,
     .gather = weir_gpu_solver_gather,
     .pass_times = weir_gpu_solver_pass_times,

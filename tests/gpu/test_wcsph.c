@@ -126,9 +126,36 @@ static void check_sums(const WeirSolver *solver, const WeirDiagnosticSums *sums,
     CHECK_NEAR(sums->density_error_max, wanted.density_error_max, 1e-7);
 }
 
+static void *copy_of(const void *data, size_t size)
+{
+    void *copy = malloc(size);
+    assert_non_null(copy);
+    return memcpy(copy, data, size);
+}
+
+// Places, velocities and groups alone are those that come with all the rest.
+static void check_motion(WeirSolver *solver)
+{
+    WeirState motion, all;
+    assert_int_equal(solver->interface->read_motion(solver, &motion), WEIR_OK);
+    size_t vectors = sizeof(float) * motion.dimension * motion.count,
+           groups = sizeof(uint32_t) * motion.count;
+    void *position = copy_of(motion.position, vectors), *velocity = copy_of(motion.velocity, vectors);
+    void *group = copy_of(motion.group, groups);
+    all = read_state(solver);
+    assert_true(motion.step == all.step && motion.time == all.time && motion.count == all.count);
+    assert_memory_equal(position, all.position, vectors);
+    assert_memory_equal(velocity, all.velocity, vectors);
+    assert_memory_equal(group, all.group, groups);
+    free(position);
+    free(velocity);
+    free(group);
+}
+
 static void compare(const char *where, const WeirTestWorld *test, WeirSolver *on_gpu, WeirSolver *on_cpu,
                     double tolerance)
 {
+    check_motion(on_gpu);
     WeirDiagnosticSums sums = sums_of(on_gpu);
     WeirState a = read_state(on_gpu), b = read_state(on_cpu);
     check_sums(on_gpu, &sums, &a);

@@ -597,13 +597,38 @@ export class Sim {
   // By id; a view into wasm memory, valid until the next read() of the field or until that memory grows: use it at once
   // or copy it. null while the GPU copies.
   read(field: Field): Float32Array | null {
-    const { memory, c } = this.#context;
-    const count = this.particleCount * (field >= Field.density ? 1 : this.dimension);
-    const block = (this.#fields[field] ??= { at: memory.allocate(4 * count), view: new Float32Array(0) });
-    const status = c.weir_sim_read(this.pointer, field, block.at, count);
+    const count = this.#components(field);
+    const status = this.#context.c.weir_sim_read(this.pointer, field, this.#block(field).at, count);
     if (status === Status.pending) return null;
     this.#throwIf(status);
-    if (block.view.buffer !== c.memory.buffer) block.view = memory.floats(block.at, count);
+    return this.#view(field);
+  }
+
+  // Both of one moment, which two calls of read() do not give while the simulation runs. Views as of read().
+  readMotion(): { positions: Float32Array; velocities: Float32Array } | null {
+    const [positions, velocities] = [this.#block(Field.position), this.#block(Field.velocity)];
+    const count = this.#components(Field.position);
+    const status = this.#context.c.weir_sim_read_motion(this.pointer, positions.at, velocities.at, count);
+    if (status === Status.pending) return null;
+    this.#throwIf(status);
+    return { positions: this.#view(Field.position), velocities: this.#view(Field.velocity) };
+  }
+
+  #components(field: Field): number {
+    return this.particleCount * (field >= Field.density ? 1 : this.dimension);
+  }
+
+  // Where a field goes in wasm memory.
+  #block(field: Field): { at: number; view: Float32Array } {
+    return (this.#fields[field] ??= {
+      at: this.#context.memory.allocate(4 * this.#components(field)), view: new Float32Array(0),
+    });
+  }
+
+  #view(field: Field): Float32Array {
+    const { memory, c } = this.#context;
+    const block = this.#block(field);
+    if (block.view.buffer !== c.memory.buffer) block.view = memory.floats(block.at, this.#components(field));
     return block.view;
   }
 

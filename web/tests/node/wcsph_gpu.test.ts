@@ -129,3 +129,38 @@ test('2D: 1,024 emitters and drains', () => follow(crowd, 30, 5e-3));
 test('3D: 20 steps follow the C solver', () => follow(deep, 20, 1e-3));
 test('2D: probes and diagnostics of the state at which they were asked for', () => measure(lively, [0.15, 0.2], [1, 0]));
 test('3D: probes and diagnostics', () => measure(deep, [0.1, 0.15, 0.28], [1, 0, 0]));
+
+test('positions and velocities come of one moment while steps go on', async () => {
+  const [sim, still] = [await start(lively, true), await start(lively, true)];
+  for (const one of [sim, still]) one.step(12);
+  const wanted = await until(() => (still.poll(), still.readMotion()), 'readMotion');
+  assert.equal(sim.readMotion(), null);
+  sim.step(5);
+  const motion = await until(() => (sim.poll(), sim.readMotion()), 'readMotion');
+  assert.deepEqual(motion.positions, wanted.positions);
+  assert.deepEqual(motion.velocities, wanted.velocities);
+  // The next copy is of the steps since, and more may be asked of it than was under way.
+  assert.equal(sim.readMotion(), null);
+  const density = (await until(() => (sim.poll(), sim.read(Field.density)), 'read')).slice();
+  assert.ok(density.some((value) => value > 900));
+  const later = await until(() => (sim.poll(), sim.readMotion()), 'readMotion');
+  assert.notDeepEqual(later.positions, wanted.positions);
+  for (const one of [sim, still]) one.destroy();
+});
+
+test('after a blow-up the last good positions and velocities come', async () => {
+  const sim = await start({ ...tank, parameters: { ...tank.parameters, stepping: 'fixed', time_step: 0.01 } }, true);
+  try {
+    sim.step(100);
+    await sim.finished();
+    assert.fail('it did not blow up');
+  } catch (error) {
+    assert.match((error as Error).message, /blew up/);
+  }
+  const { positions, velocities } = await until(() => (sim.poll(), sim.readMotion()), 'readMotion');
+  assert.ok(positions.every(Number.isFinite) && velocities.every(Number.isFinite));
+  assert.ok(velocities.some((value) => value !== 0));
+  const diagnostics = await until(() => (sim.poll(), sim.diagnose()), 'diagnose');
+  assert.ok(Number.isFinite(diagnostics.kineticEnergy));
+  sim.destroy();
+});
