@@ -46,8 +46,9 @@ bool weir_gpu_wcsph_copy_probes(WeirWcsphGpu *solver, const WeirSolverSetup *set
     size_t per_record = 2 * setup->constants.dimension + 2;
     probes->values = calloc(per_record * traits->most_gathered, sizeof *probes->values);
     probes->order = calloc(2 * (size_t)traits->most_gathered, sizeof *probes->order);
+    if (!probes->values || !probes->order) return false;
     probes->shuffle = probes->order + traits->most_gathered;
-    return probes->values && probes->order;
+    return true;
 }
 
 void weir_gpu_wcsph_free_probes(WeirWcsphGpu *solver)
