@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { cpus } from 'node:os';
 import { article, benchAllPairs, blockColumns } from '../web/src/all_pairs.ts';
-import { Weir, type Sim } from '../web/src/weir.ts';
+import { Diagnose, Weir, type Sim } from '../web/src/weir.ts';
 
 type Case = 'article' | 'n20';
 
@@ -83,7 +83,7 @@ export async function measureWasm(path: string, count: number, seconds: number, 
     const loaded = weir.loadScene(scene(benchCase, count, search, timeStep));
     const sim = weir.createSim(loaded);
     const step = measureStep(sim, seconds);
-    const neighbors = sim.diagnose(true)?.meanNeighbors;
+    const neighbors = sim.diagnose(Diagnose.neighbors)?.meanNeighbors;
     rows.push({
       scene: benchCase,
       particles: sim.particleCount,

@@ -11,7 +11,7 @@ int main(void)
     while (weir_sim_status(sim) == WEIR_OK && weir_sim_time(sim) < 1.0) weir_sim_step(sim, 100);
 
     WeirDiagnostics now;
-    WeirStatus status = weir_sim_diagnose(sim, true, &now);
+    WeirStatus status = weir_sim_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS, &now);
     if (status == WEIR_OK) status = weir_sim_status(sim);
     printf("%s\n%u particles, %.3f s, %.1f J in motion, density error %.2f %%\n", weir_sim_device(sim),
            weir_sim_particle_count(sim), weir_sim_time(sim), now.kinetic_energy,

@@ -167,7 +167,8 @@ static int finish(Run *run)
     int exit_status = run->interrupted ? WEIR_EXIT_INTERRUPTED : WEIR_EXIT_DONE;
     report.outcome = run->status ? "failed" : run->interrupted ? "interrupted" : "done";
     snprintf(message, sizeof message, "%s", run->status ? weir_sim_error(run->sim) : "");
-    report.has_diagnostics = weir_sim_diagnose(run->sim, !run->status, &report.diagnostics) == WEIR_OK;
+    uint32_t flags = WEIR_DIAGNOSE_HASH | (run->status ? 0 : WEIR_DIAGNOSE_NEIGHBORS);
+    report.has_diagnostics = weir_sim_diagnose(run->sim, flags, &report.diagnostics) == WEIR_OK;
     if (!run->status && !report.has_diagnostics) {
         report.outcome = "failed";
         snprintf(message, sizeof message, "%s", weir_sim_error(run->sim));

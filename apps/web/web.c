@@ -118,12 +118,12 @@ void weir_web_sim_clock(const WeirSim *sim, double values[10])
     values[9] = clock.lost_particles;
 }
 
-// Fills 14 numbers in the order of WeirDiagnostics; the hash comes as its high and low half.
+// `flags` of WeirDiagnose. Fills 14 numbers in the order of WeirDiagnostics; the hash comes as its high and low half.
 WEIR_WEB(weir_web_sim_diagnose)
-WeirStatus weir_web_sim_diagnose(WeirSim *sim, bool count_neighbors, double values[14])
+WeirStatus weir_web_sim_diagnose(WeirSim *sim, uint32_t flags, double values[14])
 {
     WeirDiagnostics found;
-    WeirStatus status = weir_sim_diagnose(sim, count_neighbors, &found);
+    WeirStatus status = weir_sim_diagnose(sim, flags, &found);
     if (status != WEIR_OK) return status;
     const double numbers[14] = {
         (double)found.step,

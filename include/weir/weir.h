@@ -211,6 +211,10 @@ uint32_t weir_field_components(WeirField field, uint32_t dimension);
 // copy that it started has arrived (then the values are those of the step at which it was started).
 WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t capacity);
 
+// Positions and velocities of one moment: what weir_sim_read() of both gives natively, from one copy in a browser too.
+// `capacity`: of each.
+WeirStatus weir_sim_read_motion(WeirSim *sim, float *positions, float *velocities, size_t capacity);
+
 // What a simulation knows of itself while it runs, without reading the particles. `mueller` knows step and time
 // only; the rest is NaN or 0.
 typedef struct WeirClock {
@@ -225,7 +229,9 @@ typedef struct WeirClock {
 } WeirClock;
 WeirClock weir_sim_clock(const WeirSim *sim);
 
-// Everything that Weir measures, computed by one function for CPU and GPU, in double precision.
+// Everything that Weir measures of free fluid: the same formulas for CPU and GPU. Sums are in double precision; without
+// flags a GPU makes them in parts of single precision (an error of about 1e-6 of the sum of what they add up), in an order
+// that depends on the state alone.
 typedef struct WeirDiagnostics {
     uint64_t step;
     double time;
@@ -237,10 +243,15 @@ typedef struct WeirDiagnostics {
     double max_speed;          // m/s
     double mean_neighbors;     // other particles inside the support radius; negative if not asked for
     uint32_t lost_particles;   // outside the domain or not finite
-    uint64_t state_hash;       // of positions and velocities by id; equal bits, equal hash
+    uint64_t state_hash; // of positions and velocities by id; equal bits, equal hash; 0 if not asked for
 } WeirDiagnostics;
-// `count_neighbors` costs a neighbour search on the host. WEIR_PENDING as weir_sim_read().
-WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics *diagnostics);
+// What costs more, by bit. On a GPU both need a copy of all particles; the rest is summed there and costs little.
+typedef enum WeirDiagnose {
+    WEIR_DIAGNOSE_NEIGHBORS = 1, // mean_neighbors: a neighbour search on the host
+    WEIR_DIAGNOSE_HASH = 2,      // state_hash
+} WeirDiagnose;
+// `flags` of WeirDiagnose, or 0. WEIR_PENDING as weir_sim_read().
+WeirStatus weir_sim_diagnose(WeirSim *sim, uint32_t flags, WeirDiagnostics *diagnostics);
 
 // Neighbours from a sample of the fluid: cheap where weir_sim_diagnose() would be slow.
 typedef struct WeirNeighborCount {

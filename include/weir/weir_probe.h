@@ -36,8 +36,9 @@ WeirProbeInfo weir_probe_info(const WeirProbes *probes, uint32_t index);
 WeirProbeSeries weir_probe_series(const WeirProbes *probes, uint32_t index);
 // When the next sample of any probe is due, s; infinite without probes.
 double weir_probes_next_time(const WeirProbes *probes);
-// Samples the probes that are due at the simulation's present time. WEIR_PENDING as weir_sim_read(): call again
-// before the next step.
+// Samples the probes that are due at the simulation's present time. WEIR_PENDING as weir_sim_read(): call again; a sample
+// has the time of the state that was measured, which is that of the first call. A GPU with `wcsph` hands over no more than
+// what they look at.
 WeirStatus weir_probes_update(WeirProbes *probes, WeirSim *sim);
 // weir_sim_run_until() that stops at each sample's time. WEIR_PENDING in a browser: call again.
 WeirStatus weir_probes_run_until(WeirProbes *probes, WeirSim *sim, double time);

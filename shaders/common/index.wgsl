@@ -14,3 +14,10 @@ fn folded(line: u32, count: u32) -> u32 {
     }
     return line % count;
 }
+
+// Particles of a workgroup's share: the first, and the end.
+fn particle_share(group: u32, workgroups: vec3u) -> vec2u {
+    let groups = workgroups.x * workgroups.y;
+    let share = (constants.particle_count + groups - 1u) / groups;
+    return min(vec2u(group * share, group * share + share), vec2u(constants.particle_count));
+}

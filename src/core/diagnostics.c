@@ -30,17 +30,10 @@ static bool is_fluid(const WeirState *state, size_t i)
     return !state->group || state->group[i] == WEIR_GROUP_FLUID;
 }
 
-// Height above the domain's lowest point along gravity, times g: potential energy per mass.
-static double potential(const WeirParameters *parameters, const WeirConstants *constants,
-                        const float *position, uint32_t dimension)
+// Of the domain's lowest corner along gravity.
+static double lowest_place(const WeirParameters *parameters, const WeirConstants *constants, uint32_t axis)
 {
-    double sum = 0.0;
-    for (uint32_t axis = 0; axis < dimension; ++axis) {
-        double gravity = parameters->gravity[axis];
-        double lowest = gravity < 0.0 ? constants->domain_min[axis] : constants->domain_max[axis];
-        sum -= gravity * (position[axis] - lowest);
-    }
-    return sum;
+    return parameters->gravity[axis] < 0.0f ? constants->domain_min[axis] : constants->domain_max[axis];
 }
 
 float weir_domain_slack(const WeirParameters *parameters, const WeirConstants *constants)
@@ -199,43 +192,59 @@ static WeirStatus mean_neighbors(const WeirState *state, const WeirParameters *p
     return made ? WEIR_OK : WEIR_ERROR_MEMORY;
 }
 
-WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameters,
-                         const WeirConstants *constants, bool count_neighbors, WeirDiagnostics *diagnostics)
+// ---- Sums ----
+
+void weir_sum_fluid(const WeirState *state, const WeirParameters *parameters, const WeirConstants *constants,
+                    WeirDiagnosticSums *sums)
 {
-    double mass = constants->particle_mass, rest_density = parameters->rest_density;
-    double error_sum = 0.0, error_max = 0.0, kinetic = 0.0, height = 0.0, speed2_max = 0.0;
-    double momentum[3] = {0.0, 0.0, 0.0};
-    uint32_t lost = 0, dimension = state->dimension;
-    size_t fluid = 0;
+    uint32_t dimension = state->dimension;
+    *sums = (WeirDiagnosticSums){.step = state->step, .time = state->time};
     for (size_t i = 0; i < state->count; ++i) {
         if (!is_fluid(state, i)) continue;
         const float *position = &state->position[dimension * i], *velocity = &state->velocity[dimension * i];
         double speed2 = 0.0;
         for (uint32_t axis = 0; axis < dimension; ++axis) {
             speed2 += (double)velocity[axis] * velocity[axis];
-            momentum[axis] += mass * velocity[axis];
+            sums->velocity[axis] += velocity[axis];
+            sums->place[axis] += position[axis] - lowest_place(parameters, constants, axis);
         }
         // Compression only: at a free surface the sum lacks neighbours, which is no error of volume.
-        double error = fmax(0.0, state->density[i] / rest_density - 1.0);
-        error_sum += error;
-        error_max = fmax(error_max, error);
-        kinetic += 0.5 * mass * speed2;
-        height += mass * potential(parameters, constants, position, dimension);
-        speed2_max = fmax(speed2_max, speed2);
-        lost += is_lost(parameters, constants, position, velocity, dimension);
-        ++fluid;
+        double error = fmax(0.0, state->density[i] / (double)parameters->rest_density - 1.0);
+        sums->density_error += error;
+        sums->density_error_max = fmax(sums->density_error_max, error);
+        sums->speed2 += speed2;
+        sums->speed2_max = fmax(sums->speed2_max, speed2);
+        sums->lost += is_lost(parameters, constants, position, velocity, dimension);
+        ++sums->particles;
     }
+}
+
+void weir_diagnose_sums(const WeirDiagnosticSums *sums, const WeirParameters *parameters,
+                        const WeirConstants *constants, WeirDiagnostics *diagnostics)
+{
+    double mass = constants->particle_mass;
     *diagnostics = (WeirDiagnostics){
-        .density_error_mean = fluid > 0 ? error_sum / (double)fluid : 0.0,
-        .density_error_max = error_max,
-        .kinetic_energy = kinetic,
-        .potential_energy = height,
-        .momentum = {momentum[0], momentum[1], momentum[2]},
-        .max_speed = sqrt(speed2_max),
+        .density_error_mean = sums->particles > 0 ? sums->density_error / (double)sums->particles : 0.0,
+        .density_error_max = sums->density_error_max,
+        .kinetic_energy = 0.5 * mass * sums->speed2,
+        .max_speed = sqrt(sums->speed2_max),
         .mean_neighbors = -1.0,
-        .lost_particles = lost,
-        .state_hash = weir_state_hash(state),
+        .lost_particles = (uint32_t)sums->lost,
     };
-    if (!count_neighbors) return WEIR_OK;
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+        diagnostics->momentum[axis] = mass * sums->velocity[axis];
+        // Height above the lowest corner, times g.
+        diagnostics->potential_energy -= mass * (double)parameters->gravity[axis] * sums->place[axis];
+    }
+}
+
+WeirStatus weir_diagnose(const WeirState *state, const WeirParameters *parameters,
+                         const WeirConstants *constants, uint32_t flags, WeirDiagnostics *diagnostics)
+{
+    WeirDiagnosticSums sums;
+    weir_sum_fluid(state, parameters, constants, &sums);
+    weir_diagnose_sums(&sums, parameters, constants, diagnostics);
+    if (flags & WEIR_DIAGNOSE_HASH) diagnostics->state_hash = weir_state_hash(state);
+    if (!(flags & WEIR_DIAGNOSE_NEIGHBORS)) return WEIR_OK;
     return mean_neighbors(state, parameters, constants, &diagnostics->mean_neighbors);
 }

@@ -27,7 +27,8 @@ static Field make_field(const WeirState *state, const WeirParameters *parameters
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     Field field = {
         .state = state,
-        .count = constants->first_solid ? constants->first_solid : state->count,
+        .count = constants->first_solid && constants->first_solid < state->count ? constants->first_solid
+                                                                                 : state->count,
         .dimension = state->dimension,
         .kernel = parameters->kernel,
         .support = parameters->support_radius,
@@ -185,18 +186,24 @@ static double height(const Field *field, const WeirParameters *parameters, const
 
 // ---- Front and mass ----
 
+// Of a dot product with `direction`.
+static double front_at(double farthest, const double direction[3], uint32_t dimension, double spacing)
+{
+    double length2 = 0.0;
+    for (uint32_t axis = 0; axis < dimension; ++axis) length2 += direction[axis] * direction[axis];
+    return length2 > 0.0 && isfinite(farthest) ? farthest / sqrt(length2) + 0.5 * spacing : NAN;
+}
+
 static double front(const Field *field, const double direction[3], double spacing)
 {
-    double farthest = -INFINITY, length2 = 0.0;
-    for (uint32_t axis = 0; axis < field->dimension; ++axis) length2 += direction[axis] * direction[axis];
-    if (!(length2 > 0.0)) return NAN;
+    double farthest = -INFINITY;
     for (size_t i = 0; i < field->count; ++i) {
         const float *x = &field->state->position[field->dimension * i];
         double along = 0.0;
         for (uint32_t axis = 0; axis < field->dimension; ++axis) along += x[axis] * direction[axis];
         if (along > farthest && is_fluid(field->state, i)) farthest = along;
     }
-    return isfinite(farthest) ? farthest / sqrt(length2) + 0.5 * spacing : NAN;
+    return front_at(farthest, direction, field->dimension, spacing);
 }
 
 static double mass_inside(const Field *field, const double min[3], const double max[3])
@@ -210,6 +217,57 @@ static double mass_inside(const Field *field, const double min[3], const double 
         inside += in && is_fluid(field->state, i);
     }
     return field->mass * (double)inside;
+}
+
+double weir_probe_value(const WeirProbePiece *probe, double found, const WeirParameters *parameters,
+                        const WeirConstants *constants)
+{
+    if (probe->kind == WEIR_PROBE_MASS) return constants->particle_mass * found;
+    return front_at(found, probe->direction, constants->dimension, parameters->particle_spacing);
+}
+
+// ---- What it looks at ----
+
+WeirLook weir_probe_look(const WeirProbePiece *probe, const WeirParameters *parameters,
+                         const WeirConstants *constants)
+{
+    static const WeirLookKind kinds[] = {
+        [WEIR_PROBE_PRESSURE] = WEIR_LOOK_POINT, [WEIR_PROBE_VELOCITY] = WEIR_LOOK_POINT,
+        [WEIR_PROBE_HEIGHT] = WEIR_LOOK_LINE,    [WEIR_PROBE_FORCE] = WEIR_LOOK_FORCE,
+        [WEIR_PROBE_FRONT] = WEIR_LOOK_FARTHEST, [WEIR_PROBE_MASS] = WEIR_LOOK_BOX,
+    };
+    WeirLook look = {.kind = kinds[probe->kind]};
+    double up[3];
+    make_up(parameters, constants->dimension, up);
+    bool box = look.kind == WEIR_LOOK_BOX;
+    const double *from = box ? probe->min : probe->position, *to = box ? probe->max : probe->direction;
+    if (look.kind == WEIR_LOOK_LINE) to = up;
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+        look.point[axis] = (float)from[axis];
+        look.direction[axis] = (float)to[axis];
+    }
+    return look;
+}
+
+uint32_t weir_probe_reach(const WeirProbePiece *probes, uint32_t count, const WeirParameters *parameters,
+                          const WeirConstants *constants)
+{
+    // In spacings: a particle has a volume of 1.
+    double spacing = parameters->particle_spacing, support = parameters->support_radius / spacing;
+    double length2 = 0.0, sum = 0.0;
+    bool flat = constants->dimension == 2;
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
+        double side = ((double)constants->domain_max[axis] - constants->domain_min[axis]) / spacing;
+        length2 += side * side;
+    }
+    double ball = flat ? 3.15 * support * support : 4.19 * support * support * support;
+    double line = (sqrt(length2) + 2.0 * support) * (flat ? 2.0 * support : 3.15 * support * support);
+    for (uint32_t k = 0; k < count; ++k) {
+        // Twice as many around a point as at rest; a line that is full of fluid from end to end is rare.
+        bool point = probes[k].kind == WEIR_PROBE_PRESSURE || probes[k].kind == WEIR_PROBE_VELOCITY;
+        sum += point ? 2.0 * ball + 16.0 : probes[k].kind == WEIR_PROBE_HEIGHT ? line + 16.0 : 0.0;
+    }
+    return (uint32_t)fmin(sum, constants->first_solid ? constants->first_solid : constants->particle_count);
 }
 
 // ---- The probe ----

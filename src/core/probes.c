@@ -136,24 +136,42 @@ static bool make_room(Series *series)
     return true;
 }
 
-WeirStatus weir_probes_update(WeirProbes *probes, WeirSim *sim)
+static void measure(const WeirProbes *probes, uint32_t k, const WeirSim *sim, const WeirGathered *from,
+                    double values[3])
+{
+    const WeirProbePiece *piece = &probes->scene->probe[k];
+    const WeirParameters *parameters = weir_sim_parameters(sim);
+    const WeirConstants *constants = weir_sim_constants(sim);
+    if (from->found && (piece->kind == WEIR_PROBE_FRONT || piece->kind == WEIR_PROBE_MASS))
+        values[0] = weir_probe_value(piece, from->found[k], parameters, constants);
+    else
+        weir_probe_measure(piece, probes->series[k].solid, &from->state, parameters, constants, values);
+}
+
+// How far from its time a sample may be taken.
+static double slack_at(const WeirProbes *probes, const WeirSim *sim, double now)
 {
     // Fixed steps of `mueller` end at the one nearest to a sample's time.
     bool nearest = probes->scene->method == WEIR_METHOD_MUELLER;
+    return nearest ? 0.5 * (double)weir_sim_parameters(sim)->time_step : 1e-9 * fmax(now, 1e-3);
+}
+
+WeirStatus weir_probes_update(WeirProbes *probes, WeirSim *sim)
+{
     double now = weir_sim_time(sim);
-    double slack = nearest ? 0.5 * (double)weir_sim_parameters(sim)->time_step : 1e-9 * fmax(now, 1e-3);
-    WeirState state;
-    bool read = false;
+    if (weir_probes_next_time(probes) > now + slack_at(probes, sim, now)) return WEIR_OK;
+    WeirGathered gathered = {0};
+    WeirStatus status = weir_sim_gather(sim, &gathered);
+    if (status) return status;
+    // In a browser the simulation may have gone on since the copy was started.
+    now = weir_sim_time_of(sim, &gathered.state);
+    double slack = slack_at(probes, sim, now);
     for (uint32_t k = 0; k < probes->count; ++k) {
         Series *series = &probes->series[k];
         if (due_time(probes, k) > now + slack) continue;
-        WeirStatus status = read ? WEIR_OK : weir_sim_state(sim, &state);
-        if (status) return status;
-        read = true;
         if (!make_room(series)) return WEIR_ERROR_MEMORY;
         double values[3];
-        weir_probe_measure(&probes->scene->probe[k], series->solid, &state, weir_sim_parameters(sim),
-                           weir_sim_constants(sim), values);
+        measure(probes, k, sim, &gathered, values);
         series->time[series->count] = now;
         memcpy(&series->values[(size_t)series->count * series->components], values,
                series->components * sizeof *values);

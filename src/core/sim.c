@@ -79,6 +79,8 @@ static WeirStatus start(WeirSim *sim, uint32_t threads)
         .constants = sim->constants,
         .world = &world,
         .threads = threads,
+        .probes = sim->scene->probe,
+        .probe_count = sim->scene->probe_count,
     };
     WeirMessage message = {""};
     sim->solver = sim->backend->create_solver(sim->backend, &setup, &status, &message);
@@ -503,9 +505,10 @@ static WeirStatus read_state(WeirSim *sim, bool motion, WeirState *state)
     const WeirSolverInterface *interface = sim->solver->interface;
     motion = motion && interface->read_motion;
     if (!sim->state_is_current && !(motion && sim->motion_is_current)) {
-        WeirStatus status = pass_on(sim, motion ? interface->read_motion(sim->solver, &sim->state)
-                                                : interface->read(sim->solver, &sim->state));
-        if (status) return status;
+        WeirStatus status = motion ? interface->read_motion(sim->solver, &sim->state) : WEIR_OK;
+        if (status == WEIR_ERROR_UNSTABLE) motion = false;
+        if (!motion) status = interface->read(sim->solver, &sim->state);
+        if (status) return pass_on(sim, status);
         sim->state.step += sim->steps_given;
         sim->motion_is_current = sim->state.step == sim->steps;
         sim->state_is_current = !motion && sim->motion_is_current;
@@ -555,17 +558,69 @@ WeirStatus weir_sim_read(WeirSim *sim, WeirField field, float *values, size_t ca
     return WEIR_OK;
 }
 
-WeirStatus weir_sim_diagnose(WeirSim *sim, bool count_neighbors, WeirDiagnostics *diagnostics)
+WeirStatus weir_sim_read_motion(WeirSim *sim, float *positions, float *velocities, size_t capacity)
 {
+    size_t floats = (size_t)sim->particle_count * sim->scene->dimension;
+    if (capacity < floats) {
+        return weir_fail(&sim->error, WEIR_ERROR_INPUT, "capacity: %zu floats; %zu are needed", capacity,
+                         floats);
+    }
+    WeirState state = {0};
+    WeirStatus status = read_state(sim, true, &state);
+    if (status) return status;
+    memcpy(positions, state.position, floats * sizeof *positions);
+    memcpy(velocities, state.velocity, floats * sizeof *velocities);
+    return WEIR_OK;
+}
+
+// `time` as a solver gives it.
+static double time_of(const WeirSim *sim, uint64_t step, double time)
+{
+    if (time >= 0.0) return sim->time_given + time;
+    return sim->time - (double)(sim->steps - step) * sim->parameters.time_step;
+}
+
+double weir_sim_time_of(const WeirSim *sim, const WeirState *state)
+{
+    return time_of(sim, state->step, state->time);
+}
+
+WeirStatus weir_sim_gather(WeirSim *sim, WeirGathered *gathered)
+{
+    if (sim->solver && sim->solver->interface->gather && sim->scene->probe_count > 0) {
+        WeirStatus status = sim->solver->interface->gather(sim->solver, gathered);
+        gathered->state.step += sim->steps_given;
+        if (status != WEIR_ERROR_UNSTABLE) return pass_on(sim, status);
+    }
+    gathered->found = NULL;
+    return weir_sim_state(sim, &gathered->state);
+}
+
+static WeirStatus diagnose_there(WeirSim *sim, WeirDiagnostics *diagnostics)
+{
+    WeirDiagnosticSums sums;
+    WeirStatus status = sim->solver->interface->diagnose(sim->solver, &sums);
+    if (status == WEIR_ERROR_UNSTABLE) return status;
+    if (status) return pass_on(sim, status);
+    weir_diagnose_sums(&sums, &sim->parameters, &sim->constants, diagnostics);
+    diagnostics->step = sim->steps_given + sums.step;
+    diagnostics->time = time_of(sim, diagnostics->step, sums.time);
+    return WEIR_OK;
+}
+
+WeirStatus weir_sim_diagnose(WeirSim *sim, uint32_t flags, WeirDiagnostics *diagnostics)
+{
+    if (flags == 0 && sim->solver && sim->solver->interface->diagnose) {
+        WeirStatus status = diagnose_there(sim, diagnostics);
+        if (status != WEIR_ERROR_UNSTABLE) return status;
+    }
     WeirState state;
     WeirStatus status = weir_sim_state(sim, &state);
     if (status) return status;
-    status = weir_diagnose(&state, &sim->parameters, &sim->constants, count_neighbors, diagnostics);
+    status = weir_diagnose(&state, &sim->parameters, &sim->constants, flags, diagnostics);
     if (status) return weir_fail(&sim->error, status, "no memory to count neighbours");
     diagnostics->step = state.step;
-    diagnostics->time = state.time >= 0.0
-                            ? sim->time_given + state.time
-                            : sim->time - (double)(sim->steps - state.step) * sim->parameters.time_step;
+    diagnostics->time = weir_sim_time_of(sim, &state);
     return WEIR_OK;
 }
 
@@ -595,7 +650,7 @@ WeirStatus weir_sim_count_neighbors(WeirSim *sim, uint32_t particles, WeirNeighb
     const WeirConstants *constants = &sim->constants;
     if (constants->period_x || constants->period_y || constants->period_z) {
         WeirDiagnostics all;
-        status = weir_sim_diagnose(sim, true, &all);
+        status = weir_sim_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS, &all);
         *found = (WeirNeighborCount){weir_sim_clock(sim).fluid_particles, all.mean_neighbors, NAN};
         return status;
     }

@@ -24,6 +24,26 @@ typedef struct WeirState {
     double time;                  // s since set_state(); negative: steps of one length (mueller)
 } WeirState;
 
+// Sums over free fluid, of which its diagnostics follow (diagnostics.h).
+typedef struct WeirDiagnosticSums {
+    uint64_t step; // as WeirState's
+    double time;
+    uint64_t particles, lost;
+    double place[3]; // m, from the domain's lowest corner along gravity
+    double velocity[3], speed2;
+    double density_error; // max(rho / rho0 - 1, 0)
+    double speed2_max, density_error_max;
+} WeirDiagnosticSums;
+
+// What a scene's probes look at (probe.h), and nothing else.
+typedef struct WeirGathered {
+    // Fluid near the points and lines that they look at; without acceleration and group. Solids if a probe measures a force.
+    WeirState state;
+    // Per probe. Of a front: the largest dot product of a particle's place with its direction, -INFINITY without fluid; of a
+    // mass: how many particles of fluid are inside.
+    const double *found;
+} WeirGathered;
+
 // What the solver found since set_state().
 typedef struct WeirHealth {
     uint32_t bad_particles;  // faster than constants.speed_limit or not finite, counted over all steps
@@ -60,8 +80,16 @@ typedef struct WeirSolverInterface {
     // WEIR_PENDING while the copy is under way. wcsph, after a blow-up: the last good state, on the CPU at most 64 steps
     // old, on the GPU that of the middle of the bad step.
     WeirStatus (*read)(WeirSolver *solver, WeirState *state);
-    // The same without evaluating: position, velocity, group and time alone. NULL where it would be no faster.
+    // The same without evaluating: position, velocity, group and time alone. WEIR_ERROR_UNSTABLE after a blow-up: only read()
+    // tells. NULL where it would be no faster.
     WeirStatus (*read_motion)(WeirSolver *solver, WeirState *state);
+    // The sums of weir_sum_fluid() without copying the particles or evaluating forces; to single precision. WEIR_PENDING while
+    // they are under way; WEIR_ERROR_UNSTABLE and NULL as above.
+    WeirStatus (*diagnose)(WeirSolver *solver, WeirDiagnosticSums *sums);
+    // For the probes of the solver's setup, without copying the rest, and with forces evaluated only if one measures them.
+    // WEIR_PENDING and WEIR_ERROR_UNSTABLE as above, the latter also where more fluid is gathered than ever should be. NULL
+    // where read() is as fast.
+    WeirStatus (*gather)(WeirSolver *solver, WeirGathered *gathered);
     uint32_t (*pass_times)(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
     // Milliseconds per step; 0: not known. NULL: those of all passes.
     double (*step_time)(const WeirSolver *solver);
@@ -83,8 +111,10 @@ typedef struct WeirSolverSetup {
     WeirMethod method;
     WeirParameters parameters;
     WeirConstants constants;
-    const WeirWorld *world; // copied
-    uint32_t threads;       // as in WeirSimOptions
+    const WeirWorld *world;              // copied
+    uint32_t threads;                    // as in WeirSimOptions
+    const struct WeirProbePiece *probes; // for gather(); copied
+    uint32_t probe_count;
 } WeirSolverSetup;
 
 struct WeirBackend {

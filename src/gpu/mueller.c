@@ -13,25 +13,34 @@
 
 // ---- The step ----
 
-static void evaluate(WeirMueller *solver, const WeirRecorder *recorder)
+static bool searches_all_pairs(const WeirMueller *solver)
 {
-    if (solver->common.parameters.search == WEIR_SEARCH_ALL_PAIRS) {
+    return solver->common.parameters.search == WEIR_SEARCH_ALL_PAIRS;
+}
+
+static void record_density(const WeirMueller *solver, const WeirRecorder *recorder)
+{
+    if (searches_all_pairs(solver)) {
         weir_record(recorder, WEIR_MUELLER_DENSITY_ALL_PAIRS);
-        weir_record(recorder, WEIR_MUELLER_FORCES_ALL_PAIRS);
-    } else {
-        weir_record(recorder, WEIR_MUELLER_COUNT);
-        weir_record(recorder, WEIR_MUELLER_SCAN_REDUCE);
-        weir_record(recorder, WEIR_MUELLER_SCAN_WRITE);
-        weir_record(recorder, WEIR_MUELLER_SCATTER);
-        weir_record(recorder, WEIR_MUELLER_DENSITY);
-        weir_record(recorder, WEIR_MUELLER_FORCES);
+        return;
     }
+    weir_record(recorder, WEIR_MUELLER_COUNT);
+    weir_record(recorder, WEIR_MUELLER_SCAN_REDUCE);
+    weir_record(recorder, WEIR_MUELLER_SCAN_WRITE);
+    weir_record(recorder, WEIR_MUELLER_SCATTER);
+    weir_record(recorder, WEIR_MUELLER_DENSITY);
+}
+
+static void record_forces(WeirMueller *solver, const WeirRecorder *recorder)
+{
+    weir_record(recorder, searches_all_pairs(solver) ? WEIR_MUELLER_FORCES_ALL_PAIRS : WEIR_MUELLER_FORCES);
     ++solver->device_step; // forces counts it
 }
 
 static void take_step(WeirMueller *solver, const WeirRecorder *recorder)
 {
-    evaluate(solver, recorder);
+    record_density(solver, recorder);
+    record_forces(solver, recorder);
     weir_record(recorder, WEIR_MUELLER_INTEGRATE);
     ++solver->steps;
 }
@@ -94,10 +103,11 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     return weir_gpu_solver_ready(&solver->common);
 }
 
-void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder)
+void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder, bool accelerations)
 {
     WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
-    evaluate(solver, &recorder);
+    record_density(solver, &recorder);
+    if (accelerations) record_forces(solver, &recorder);
     weir_recorder_end(&recorder);
     // The renderer draws the state with the colours of flow: both must have the same order.
     static const WeirMuellerBuffer pairs[][2] = {
@@ -159,8 +169,7 @@ static WeirStatus write_state(WeirMueller *solver, const WeirParticles *particle
     weir_buffers_write(&common->buffers, WEIR_MUELLER_health, &health, sizeof health);
     solver->steps = solver->device_step = 0;
     common->health = (WeirHealth){0};
-    common->state_copy_stale = true;
-    common->state_work = ++common->work;
+    weir_gpu_solver_replaced(common);
     return WEIR_OK;
 }
 
@@ -168,7 +177,7 @@ static WeirStatus write_state(WeirMueller *solver, const WeirParticles *particle
 static WeirStatus start(WeirGpuSolver *common)
 {
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "set_state");
-    weir_mueller_evaluate((WeirMueller *)common, encoder);
+    weir_mueller_evaluate((WeirMueller *)common, encoder, true);
     weir_gpu_submit(common->gpu, encoder, "set_state");
     return weir_gpu_solver_ready(common);
 }
@@ -189,6 +198,7 @@ static const WeirSolverInterface mueller_interface = {
     .poll = weir_gpu_solver_poll,
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
+    .diagnose = weir_gpu_solver_diagnose,
     .pass_times = weir_gpu_solver_pass_times,
     .step_time = weir_gpu_solver_step_time,
 };
@@ -233,8 +243,8 @@ WeirSolver *weir_mueller_gpu_create(WeirGpu *gpu, const WeirSolverSetup *setup, 
     common->health_buffer = WEIR_MUELLER_health;
     common->health_size = sizeof(WeirDeviceHealth);
     common->take_health = weir_mueller_take_health;
-    common->copy_state = weir_mueller_copy_state;
-    common->take_state = weir_mueller_take_state;
+    common->state_copy = (WeirGpuCopy){.queue = weir_mueller_copy_state, .take = weir_mueller_take_state};
+    common->sums_copy = (WeirGpuCopy){.queue = weir_mueller_copy_sums, .take = weir_mueller_take_sums};
     snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
     *status = make(solver, setup, message);
     if (*status == WEIR_OK) return &common->base;

@@ -23,6 +23,7 @@
     WEIR_BUFFER(sorted_id, 4, 0)                                                                             \
     WEIR_BUFFER(flow, 16, 0)                                                                                 \
     WEIR_BUFFER(acceleration, 8, 0)                                                                          \
+    WEIR_BUFFER(fluid_sums, 0, 0)                                                                            \
     WEIR_BUFFER(health, 0, 0)
 
 typedef enum WeirMuellerBuffer {
@@ -44,6 +45,7 @@ typedef enum WeirMuellerPass {
     WEIR_MUELLER_DENSITY_ALL_PAIRS,
     WEIR_MUELLER_FORCES_ALL_PAIRS,
     WEIR_MUELLER_INTEGRATE,
+    WEIR_MUELLER_DIAGNOSE,
     WEIR_MUELLER_PASS_TOTAL
 } WeirMuellerPass;
 
@@ -71,6 +73,7 @@ typedef struct WeirMueller {
     uint64_t steps;           // queued since the last set_state()
     uint32_t device_step;     // what health.step will hold once the queue is done
     uint64_t state_copy_step; // steps taken when the copy of the state was queued
+    uint64_t sums_copy_step;  // the same for that of the sums
     float *host;              // the arrays of WeirState, one after the other
 } WeirMueller;
 
@@ -80,8 +83,11 @@ enum { WEIR_MUELLER_PIECES = 4 };
 // Bytes of the pieces of the state's copy.
 void weir_mueller_piece_sizes(uint32_t particle_count, uint64_t sizes[WEIR_MUELLER_PIECES]);
 void weir_mueller_copy_state(WeirGpuSolver *solver);
-WeirStatus weir_mueller_take_state(WeirGpuSolver *solver, WeirState *state);
-// Queues count to forces on the current state, which then is in the sorted order, as flow is.
-void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder);
+WeirStatus weir_mueller_take_state(WeirGpuSolver *solver, void *state);
+void weir_mueller_copy_sums(WeirGpuSolver *solver);
+WeirStatus weir_mueller_take_sums(WeirGpuSolver *solver, void *sums);
+// Queues count to density, and forces if `accelerations` are wanted, on the current state, which then is in the sorted order,
+// as flow is.
+void weir_mueller_evaluate(WeirMueller *solver, WGPUCommandEncoder encoder, bool accelerations);
 // Floats of the host's arrays per particle: position, velocity, acceleration, density, pressure.
 enum { WEIR_HOST_FLOATS = 2 + 2 + 2 + 1 + 1 };

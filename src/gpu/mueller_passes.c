@@ -1,6 +1,7 @@
 // The passes and buffers of `mueller`.
 #include "core/grid.h"
 #include "gpu/mueller.h"
+#include "gpu/sums.h"
 
 #include <stdio.h>
 
@@ -10,6 +11,7 @@ SHADER(common_index)
 SHADER(common_grid)
 SHADER(common_kernels)
 SHADER(common_fluid)
+SHADER(common_sums)
 SHADER(solve_always)
 SHADER(solve_count)
 SHADER(solve_scan_reduce)
@@ -20,6 +22,7 @@ SHADER(solve_forces)
 SHADER(solve_density_all_pairs)
 SHADER(solve_forces_all_pairs)
 SHADER(solve_integrate)
+SHADER(solve_diagnose)
 
 static const WeirBufferInfo buffers[WEIR_MUELLER_BUFFER_TOTAL] = {
     [WEIR_MUELLER_parameters] = {"parameters", "buffer parameters", true, false, NULL, NULL},
@@ -40,6 +43,7 @@ void weir_mueller_sizes(const WeirConstants *constants, WeirBufferSize sizes[WEI
     sizes[WEIR_MUELLER_parameters].bytes = sizeof(WeirParameters);
     sizes[WEIR_MUELLER_constants].bytes = sizeof(WeirConstants);
     sizes[WEIR_MUELLER_health].bytes = sizeof(WeirDeviceHealth);
+    sizes[WEIR_MUELLER_fluid_sums].bytes = weir_sums_bytes((uint32_t)count);
     sizes[WEIR_MUELLER_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
 }
 
@@ -47,6 +51,8 @@ void weir_mueller_sizes(const WeirConstants *constants, WeirBufferSize sizes[WEI
 enum { SORTED = BIT(sorted_position) | BIT(sorted_velocity) | BIT(sorted_id) };
 enum { STATE = BIT(position) | BIT(velocity) | BIT(id) };
 #define NAMED(name) #name, "pass " #name, weir_wgsl_solve_##name, NULL, NULL
+
+static const char *const sums_part[] = {weir_wgsl_common_sums, NULL};
 
 static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
     [WEIR_MUELLER_COUNT] = {NAMED(count), BIT(position) | BIT(id), BIT(cell_count) | BIT(cell_link),
@@ -67,6 +73,8 @@ static const WeirPassInfo passes[WEIR_MUELLER_PASS_TOTAL] = {
                                        BIT(acceleration) | BIT(health), WEIR_ITEMS_PARTICLES},
     [WEIR_MUELLER_INTEGRATE] = {NAMED(integrate), SORTED | BIT(acceleration), STATE | BIT(health),
                                 WEIR_ITEMS_PARTICLES},
+    [WEIR_MUELLER_DIAGNOSE] = {"diagnose", "pass diagnose", weir_wgsl_solve_diagnose, NULL, sums_part,
+                               BIT(sorted_position) | BIT(flow), BIT(fluid_sums), WEIR_ITEMS_SUMS},
 };
 
 static const char *const parts[] = {weir_wgsl_common_uniforms,
@@ -99,8 +107,8 @@ uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConst
              "const TUTORIAL_KERNELS = %s;\nconst FOLDED_X = %s;\nconst LANES = %uu;\n",
              tutorial ? "true" : "false", weir_grid_folds_columns(constants) ? "true" : "false",
              weir_mueller_lanes(constants->particle_count));
-    uint32_t integrate = 1u << WEIR_MUELLER_INTEGRATE;
+    uint32_t always = 1u << WEIR_MUELLER_INTEGRATE | 1u << WEIR_MUELLER_DIAGNOSE;
     uint32_t all_pairs = 1u << WEIR_MUELLER_DENSITY_ALL_PAIRS | 1u << WEIR_MUELLER_FORCES_ALL_PAIRS;
-    if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | integrate;
+    if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | always;
     return ((1u << WEIR_MUELLER_PASS_TOTAL) - 1) & ~all_pairs;
 }

@@ -1,5 +1,6 @@
-// From the device to the host: the particles' health while steps run, and the whole state by id.
+// From the device to the host: the particles' health while steps run, sums over them, and the whole state by id.
 #include "gpu/mueller.h"
+#include "gpu/sums.h"
 
 #include <string.h>
 
@@ -38,21 +39,23 @@ void weir_mueller_copy_state(WeirGpuSolver *common)
 {
     WeirMueller *solver = (WeirMueller *)common;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
-    weir_mueller_evaluate(solver, encoder);
+    weir_mueller_evaluate(solver, encoder, true);
     for (uint32_t n = 0; n < WEIR_MUELLER_PIECES; ++n)
-        weir_readback_copy(common->state_copy, encoder, n, common->buffers.handle[pieces[n].name][0], 0);
+        weir_readback_copy(common->state_copy.readback, encoder, n, common->buffers.handle[pieces[n].name][0],
+                           0);
     weir_gpu_submit(common->gpu, encoder, "read");
     solver->state_copy_step = solver->steps;
 }
 
-WeirStatus weir_mueller_take_state(WeirGpuSolver *common, WeirState *state)
+WeirStatus weir_mueller_take_state(WeirGpuSolver *common, void *found)
 {
+    WeirState *state = found;
     const WeirMueller *solver = (const WeirMueller *)common;
     uint32_t count = common->constants.particle_count;
-    const float *from_position = weir_readback_data(common->state_copy, 0);
-    const float *from_flow = weir_readback_data(common->state_copy, 1);
-    const float *from_acceleration = weir_readback_data(common->state_copy, 2);
-    const uint32_t *from_id = weir_readback_data(common->state_copy, 3);
+    const float *from_position = weir_readback_data(common->state_copy.readback, 0);
+    const float *from_flow = weir_readback_data(common->state_copy.readback, 1);
+    const float *from_acceleration = weir_readback_data(common->state_copy.readback, 2);
+    const uint32_t *from_id = weir_readback_data(common->state_copy.readback, 3);
     float *position = solver->host, *velocity = position + 2 * (size_t)count;
     float *acceleration = velocity + 2 * (size_t)count, *density = acceleration + 2 * (size_t)count;
     float *pressure = density + count;
@@ -76,5 +79,27 @@ WeirStatus weir_mueller_take_state(WeirGpuSolver *common, WeirState *state)
         .pressure = pressure,
         .time = -1.0,
     };
+    return WEIR_OK;
+}
+
+void weir_mueller_copy_sums(WeirGpuSolver *common)
+{
+    WeirMueller *solver = (WeirMueller *)common;
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "diagnose");
+    weir_mueller_evaluate(solver, encoder, false);
+    WeirRecorder recorder = weir_recorder_begin(common, encoder);
+    weir_record(&recorder, WEIR_MUELLER_DIAGNOSE);
+    weir_recorder_end(&recorder);
+    weir_sums_copy(common, encoder, WEIR_MUELLER_fluid_sums);
+    weir_gpu_submit(common->gpu, encoder, "diagnose");
+    solver->sums_copy_step = solver->steps;
+}
+
+WeirStatus weir_mueller_take_sums(WeirGpuSolver *common, void *found)
+{
+    WeirDiagnosticSums *sums = found;
+    weir_sums_take(common, sums);
+    sums->step = ((const WeirMueller *)common)->sums_copy_step;
+    sums->time = -1.0;
     return WEIR_OK;
 }

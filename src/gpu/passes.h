@@ -4,7 +4,7 @@
 
 #include "gpu/parts.h"
 
-enum { WEIR_MAX_PASSES = 24, WEIR_SETTINGS_LENGTH = 2048 };
+enum { WEIR_MAX_PASSES = 28, WEIR_SETTINGS_LENGTH = 2048 };
 
 // What a pass is spread over.
 typedef enum WeirItems {
@@ -17,6 +17,7 @@ typedef enum WeirItems {
     WEIR_ITEMS_SORTING, // threads that may take several particles each: they often have nothing to do (wcsph)
     WEIR_ITEMS_BLOCKS,  // one workgroup per block of solid particles (wcsph)
     WEIR_ITEMS_FREE_BLOCKS, // the same of free bodies alone
+    WEIR_ITEMS_SUMS,        // one workgroup per share of the particles (sums.h)
     WEIR_ITEMS_TOTAL
 } WeirItems;
 

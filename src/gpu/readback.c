@@ -5,7 +5,7 @@
 typedef struct Piece {
     WGPUBuffer buffer;
     uint64_t size;
-    bool mapped;
+    bool queued, mapped;
 } Piece;
 
 struct WeirReadback {
@@ -47,7 +47,8 @@ void weir_readback_destroy(WeirReadback *readback)
 void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, uint32_t piece, WGPUBuffer from,
                         uint64_t from_offset)
 {
-    const Piece *to = &readback->pieces[piece];
+    Piece *to = &readback->pieces[piece];
+    to->queued = true;
     wgpuCommandEncoderCopyBufferToBuffer(encoder, from, from_offset, to->buffer, 0, to->size);
 }
 
@@ -70,9 +71,12 @@ void weir_readback_start(WeirReadback *readback)
 {
     readback->state = WEIR_READBACK_PENDING;
     readback->failed = false;
-    readback->waiting = readback->count;
+    readback->waiting = 0;
+    for (uint32_t n = 0; n < readback->count; ++n) readback->waiting += readback->pieces[n].queued;
     for (uint32_t n = 0; n < readback->count; ++n) {
         Piece *piece = &readback->pieces[n];
+        if (!piece->queued) continue;
+        piece->queued = false;
         wgpuBufferMapAsync(piece->buffer, WGPUMapMode_Read, 0, piece->size,
                            (WGPUBufferMapCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
                                                        .callback = on_mapped,

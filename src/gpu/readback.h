@@ -18,13 +18,13 @@ typedef struct WeirReadback WeirReadback;
 WeirReadback *weir_readback_create(WeirGpu *gpu, const char *label, uint32_t pieces, const uint64_t *sizes);
 // A copy under way in a browser: the readback frees itself when it arrived.
 void weir_readback_destroy(WeirReadback *readback); // NULL is allowed
-// Queues a piece of the copy, from byte `from_offset` on; only while idle.
+// Queues a piece of the copy, from byte `from_offset` on; only while idle. Pieces that are not queued do not come.
 void weir_readback_copy(WeirReadback *readback, WGPUCommandEncoder encoder, uint32_t piece, WGPUBuffer from,
                         uint64_t from_offset);
 // Starts to wait for the copy, after its commands were submitted.
 void weir_readback_start(WeirReadback *readback);
 WeirReadbackState weir_readback_state(const WeirReadback *readback);
-// The bytes of a piece, while ready; NULL if the device failed.
+// The bytes of a piece that was queued, while ready; NULL if the device failed.
 const void *weir_readback_data(const WeirReadback *readback, uint32_t piece);
 // Done with the bytes: idle again.
 void weir_readback_finish(WeirReadback *readback);

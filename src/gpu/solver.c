@@ -1,5 +1,6 @@
 #include "gpu/solver.h"
 #include "gpu/platform.h"
+#include "gpu/sums.h"
 
 // Time of a submit, pairs that it may visit while no step was measured, and steps of one, after which more would no
 // longer hide anything.
@@ -22,9 +23,10 @@ static WeirStatus make_copies(WeirGpuSolver *solver, uint32_t pieces, const uint
     }
     weir_report_begin(solver->report);
     solver->health_copy = weir_readback_create(solver->gpu, "health readback", 1, &solver->health_size);
-    solver->state_copy = weir_readback_create(solver->gpu, "state readback", pieces, sizes);
+    solver->state_copy.readback = weir_readback_create(solver->gpu, "state readback", pieces, sizes);
+    solver->sums_copy.readback = weir_sums_readback(solver);
     weir_report_end(solver->report, "buffer for reading the state");
-    if (!solver->health_copy || !solver->state_copy)
+    if (!solver->health_copy || !solver->state_copy.readback || !solver->sums_copy.readback)
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles", count);
     return WEIR_OK;
 }
@@ -53,13 +55,16 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     solver->passes.groups[WEIR_ITEMS_PARTICLES] = weir_workgroups(particles);
     solver->passes.groups[WEIR_ITEMS_CELL_BLOCKS] = scan_blocks;
     solver->passes.groups[WEIR_ITEMS_ONE] = 1;
+    solver->passes.groups[WEIR_ITEMS_SUMS] = weir_sums_groups(particles);
     solver->profile = weir_profile_create(gpu, solver->report);
     return WEIR_OK;
 }
 
 void weir_gpu_solver_destroy(WeirGpuSolver *solver)
 {
-    weir_readback_destroy(solver->state_copy);
+    weir_readback_destroy(solver->state_copy.readback);
+    weir_readback_destroy(solver->sums_copy.readback);
+    weir_readback_destroy(solver->gather_copy.readback);
     weir_readback_destroy(solver->health_copy);
     weir_profile_destroy(solver->profile);
     weir_passes_destroy(&solver->passes);
@@ -253,32 +258,64 @@ WeirStatus weir_gpu_solver_wait(WeirSolver *base)
 
 // ---- State ----
 
-WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
+void weir_gpu_solver_replaced(WeirGpuSolver *solver)
 {
-    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    solver->state_copy.stale = solver->sums_copy.stale = solver->gather_copy.stale = true;
+    solver->state_work = ++solver->work;
+}
+
+// What `copy` gives, as soon as it is there.
+static WeirStatus fetch(WeirGpuSolver *solver, WeirGpuCopy *copy, const char *what, void *found)
+{
     for (;;) {
         weir_gpu_poll(solver->gpu);
         WeirStatus status = weir_gpu_solver_ready(solver);
         if (status != WEIR_OK) return status;
-        switch (weir_readback_state(solver->state_copy)) {
+        switch (weir_readback_state(copy->readback)) {
         case WEIR_READBACK_IDLE:
-            solver->state_copy_stale = false;
-            solver->copy_state(solver);
-            weir_readback_start(solver->state_copy);
+            copy->stale = false;
+            copy->queue(solver);
+            weir_readback_start(copy->readback);
             break;
         case WEIR_READBACK_PENDING:
             if (!weir_platform_wait(solver->gpu)) return WEIR_PENDING;
             break;
         case WEIR_READBACK_READY: {
-            const void *copy = weir_readback_data(solver->state_copy, 0);
-            bool stale = solver->state_copy_stale;
-            if (copy && !stale) status = solver->take_state(solver, state);
-            weir_readback_finish(solver->state_copy);
-            if (!copy) return weir_fail(&base->message, WEIR_ERROR_DEVICE, "read: the GPU's copy failed");
+            bool came = weir_readback_data(copy->readback, 0) != NULL, stale = copy->stale;
+            if (came && !stale) status = copy->take(solver, found);
+            weir_readback_finish(copy->readback);
+            if (!came)
+                return weir_fail(&solver->base.message, WEIR_ERROR_DEVICE, "%s: the GPU's copy failed", what);
             if (!stale && status != WEIR_PENDING) return status;
         }
         }
     }
+}
+
+WeirStatus weir_gpu_solver_read(WeirSolver *base, WeirState *state)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    solver->wants_motion = false;
+    return fetch(solver, &solver->state_copy, "read", state);
+}
+
+WeirStatus weir_gpu_solver_read_motion(WeirSolver *base, WeirState *state)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    solver->wants_motion = true;
+    return fetch(solver, &solver->state_copy, "read_motion", state);
+}
+
+WeirStatus weir_gpu_solver_diagnose(WeirSolver *base, WeirDiagnosticSums *sums)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    return fetch(solver, &solver->sums_copy, "diagnose", sums);
+}
+
+WeirStatus weir_gpu_solver_gather(WeirSolver *base, WeirGathered *gathered)
+{
+    WeirGpuSolver *solver = (WeirGpuSolver *)base;
+    return fetch(solver, &solver->gather_copy, "gather", gathered);
 }
 
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *base, WeirPassTime *times, uint32_t capacity)

@@ -15,6 +15,15 @@ typedef struct WeirRecorder {
     WGPUComputePassEncoder pass; // NULL: measured
 } WeirRecorder;
 
+// Something that follows from the state, on its way to the host.
+typedef struct WeirGpuCopy {
+    WeirReadback *readback;
+    bool stale;                           // the state was replaced since it was queued
+    void (*queue)(WeirGpuSolver *solver); // queues commands that fill it, and submits them
+    // Turns what came into *found; WEIR_PENDING: another copy is needed.
+    WeirStatus (*take)(WeirGpuSolver *solver, void *found);
+} WeirGpuCopy;
+
 struct WeirGpuSolver {
     WeirSolver base;
     WeirGpu *gpu;
@@ -48,11 +57,8 @@ struct WeirGpuSolver {
     void (*take_health)(WeirGpuSolver *solver, const void *found);
     WeirHealth health;
 
-    WeirReadback *state_copy;
-    bool state_copy_stale;                     // the state was replaced since it was queued
-    void (*copy_state)(WeirGpuSolver *solver); // queues commands that fill state_copy, and submits them
-    // Turns what state_copy holds into arrays on the host; WEIR_PENDING: another copy is needed.
-    WeirStatus (*take_state)(WeirGpuSolver *solver, WeirState *state);
+    bool wants_motion, copied_motion;               // of the state copy: position, velocity and group alone
+    WeirGpuCopy state_copy, sums_copy, gather_copy; // of a WeirState, WeirDiagnosticSums, WeirGathered
 };
 
 // Makes report, buffers (`sizes` by buffer), passes, profile and the copies' readbacks; that of the state has `pieces` of
@@ -67,6 +73,9 @@ WeirStatus weir_gpu_solver_begin(WeirGpuSolver *solver);
 // Does what waited for pipelines that are there now. WEIR_OK: it can work; WEIR_PENDING while it is starting; or the first
 // error of device or solver, with its message in base.message.
 WeirStatus weir_gpu_solver_ready(WeirGpuSolver *solver);
+
+// The state was replaced: copies under way are not of it.
+void weir_gpu_solver_replaced(WeirGpuSolver *solver);
 
 // Commands to record; `label` is a static text.
 WGPUCommandEncoder weir_gpu_solver_commands(WeirGpuSolver *solver, const char *label);
@@ -93,5 +102,8 @@ WeirStatus weir_gpu_solver_configure(WeirSolver *solver, const WeirParameters *p
 WeirStatus weir_gpu_solver_poll(WeirSolver *solver, WeirHealth *health);
 WeirStatus weir_gpu_solver_wait(WeirSolver *solver);
 WeirStatus weir_gpu_solver_read(WeirSolver *solver, WeirState *state);
+WeirStatus weir_gpu_solver_read_motion(WeirSolver *solver, WeirState *state);
+WeirStatus weir_gpu_solver_diagnose(WeirSolver *solver, WeirDiagnosticSums *sums);
+WeirStatus weir_gpu_solver_gather(WeirSolver *solver, WeirGathered *gathered);
 uint32_t weir_gpu_solver_pass_times(const WeirSolver *solver, WeirPassTime *times, uint32_t capacity);
 double weir_gpu_solver_step_time(const WeirSolver *solver);

@@ -166,6 +166,7 @@ static void destroy(WeirSolver *base)
     WeirWcsphGpu *solver = (WeirWcsphGpu *)base;
     weir_gpu_solver_destroy(&solver->common);
     weir_gpu_wcsph_free_world(solver);
+    weir_gpu_wcsph_free_probes(solver);
     free(solver->host);
     free(solver->host_group);
     free(solver->host_solids);
@@ -209,6 +210,7 @@ static void take_change(WeirGpuSolver *common)
     set_groups(solver);
     WeirConstants cells = weir_gpu_wcsph_cells(&solver->traits, &common->constants);
     weir_buffers_write(&common->buffers, WEIR_WCSPH_constants, &cells, sizeof cells);
+    weir_gpu_wcsph_write_looks(solver);
 }
 
 // When the emitters' layers are due, and when the first of them is.
@@ -248,8 +250,7 @@ static WeirStatus write_state(WeirWcsphGpu *solver, const WeirParticles *particl
     solver->steps_before = 0;
     solver->blown_up = solver->restored = false;
     common->health = (WeirHealth){.has_clock = true, .fluid_particles = solver->fluid_at_start};
-    common->state_copy_stale = true;
-    common->state_work = ++common->work;
+    weir_gpu_solver_replaced(common);
     return WEIR_OK;
 }
 
@@ -281,6 +282,9 @@ static const WeirSolverInterface wcsph_interface = {
     .poll = weir_gpu_solver_poll,
     .wait = weir_gpu_solver_wait,
     .read = weir_gpu_solver_read,
+    .read_motion = weir_gpu_solver_read_motion,
+    .diagnose = weir_gpu_solver_diagnose,
+    .gather = weir_gpu_solver_gather,
     .pass_times = weir_gpu_solver_pass_times,
     .step_time = weir_gpu_solver_step_time,
 };
@@ -317,7 +321,8 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint6
 {
     WeirGpuSolver *common = &solver->common;
     common->constants = setup->constants;
-    if (!weir_gpu_wcsph_copy_world(solver, setup) || !make_host(solver))
+    if (!weir_gpu_wcsph_copy_world(solver, setup) || !weir_gpu_wcsph_copy_probes(solver, setup) ||
+        !make_host(solver))
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %u particles",
                          setup->constants.particle_count);
     weir_gpu_wcsph_plan(&solver->traits, &setup->parameters, &setup->constants, common->gpu, most_list_bytes);
@@ -331,6 +336,8 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint6
     WeirStatus status =
         weir_gpu_solver_make(common, method, sizes, scan_blocks, WEIR_WCSPH_PIECES, pieces, message);
     if (status != WEIR_OK) return status;
+    if (!weir_gpu_wcsph_make_gather_copy(solver))
+        return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for probes");
     set_sort_groups(solver, scan_blocks);
     status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) weir_gpu_wcsph_write_world(solver);
@@ -356,8 +363,10 @@ static WeirSolver *create(WeirGpu *gpu, const WeirSolverSetup *setup, uint64_t m
     common->health_buffer = WEIR_WCSPH_control;
     common->health_size = sizeof(WeirWcsphControl);
     common->take_health = weir_gpu_wcsph_take_health;
-    common->copy_state = weir_gpu_wcsph_copy_state;
-    common->take_state = weir_gpu_wcsph_take_state;
+    common->state_copy = (WeirGpuCopy){.queue = weir_gpu_wcsph_copy_state, .take = weir_gpu_wcsph_take_state};
+    common->sums_copy = (WeirGpuCopy){.queue = weir_gpu_wcsph_copy_sums, .take = weir_gpu_wcsph_take_sums};
+    common->gather_copy =
+        (WeirGpuCopy){.queue = weir_gpu_wcsph_copy_gathered, .take = weir_gpu_wcsph_take_gathered};
     snprintf(common->base.device, sizeof common->base.device, "%s", gpu->name);
     *status = make(solver, setup, most_list_bytes, message);
     if (*status == WEIR_OK) return &common->base;

@@ -41,6 +41,10 @@
     WEIR_BUFFER(vacancy)                                                                                     \
     WEIR_BUFFER(nozzle)                                                                                      \
     WEIR_BUFFER(schedule)                                                                                    \
+    WEIR_BUFFER(fluid_sums)                                                                                  \
+    WEIR_BUFFER(looks)                                                                                       \
+    WEIR_BUFFER(gathered)                                                                                    \
+    WEIR_BUFFER(found)                                                                                       \
     WEIR_SIZES(sort_groups)                                                                                  \
     WEIR_BUFFER(control)
 
@@ -84,6 +88,8 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_SOLID_FORCES_READ,
     WEIR_WCSPH_FIRST_STEP,
     WEIR_WCSPH_HEALTH,
+    WEIR_WCSPH_DIAGNOSE,
+    WEIR_WCSPH_GATHER,
     WEIR_WCSPH_PASS_TOTAL
 } WeirWcsphGpuPass;
 
@@ -96,7 +102,8 @@ typedef struct WeirWcsphTraits {
     uint32_t dimension, solid_count, emitter_count, drain_count, drain_group_count;
     uint32_t block_count, free_block_count; // blocks of solid particles; those of free bodies come first
     bool moving_solids, free_solids, slip_solids, can_empty;
-    float fastest_surface; // largest surface_velocity of a solid, m/s
+    uint32_t probe_count, most_gathered; // particles that probes may look at together
+    float fastest_surface;               // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
     uint32_t sort_interval;     // steps; particles may be sorted before those whose number it divides
     uint32_t emission_interval; // a multiple of it: weir_world_emission_interval()
@@ -175,6 +182,7 @@ typedef struct WeirWcsphGpu {
     float *host;             // the arrays of WeirState, one after the other
     uint32_t *host_group;
     WeirSolidState *host_solids;
+    struct WeirWcsphProbes *probes; // NULL: none
 } WeirWcsphGpu;
 
 // wcsph_world.c: what the world is for the device.
@@ -201,4 +209,25 @@ void weir_gpu_wcsph_piece_sizes(const WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOT
                                 uint64_t piece_sizes[WEIR_WCSPH_PIECES]);
 void weir_gpu_wcsph_take_health(WeirGpuSolver *solver, const void *found);
 void weir_gpu_wcsph_copy_state(WeirGpuSolver *solver);
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, WeirState *state);
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *solver, void *state);
+// Solids and forces on them, as a copy of both buffers has them.
+void weir_gpu_wcsph_take_solids(WeirWcsphGpu *solver, const WeirSolidState *solids, const float *sums);
+// Of a particle at `place` quanta, m: as many numbers as dimensions.
+void weir_gpu_wcsph_position(const WeirConstants *constants, const int32_t *place, float *position);
+// Step and time of a state.
+void weir_gpu_wcsph_take_moment(const WeirWcsphGpu *solver, const WeirWcsphControl *control,
+                                WeirState *state);
+void weir_gpu_wcsph_copy_sums(WeirGpuSolver *solver);
+WeirStatus weir_gpu_wcsph_take_sums(WeirGpuSolver *solver, void *sums);
+
+// wcsph_probe.c: what the probes look at.
+bool weir_gpu_wcsph_copy_probes(WeirWcsphGpu *solver, const WeirSolverSetup *setup);
+void weir_gpu_wcsph_free_probes(WeirWcsphGpu *solver);
+// Bytes of their buffers.
+void weir_gpu_wcsph_probe_sizes(const WeirWcsphTraits *traits, WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL]);
+// False if memory runs out.
+bool weir_gpu_wcsph_make_gather_copy(WeirWcsphGpu *solver);
+// After a change of the parameters.
+void weir_gpu_wcsph_write_looks(WeirWcsphGpu *solver);
+void weir_gpu_wcsph_copy_gathered(WeirGpuSolver *solver);
+WeirStatus weir_gpu_wcsph_take_gathered(WeirGpuSolver *solver, void *gathered);

@@ -1,5 +1,6 @@
 // The passes and buffers of `wcsph`.
 #include "core/grid.h"
+#include "gpu/sums.h"
 #include "gpu/wcsph.h"
 
 #include <stdio.h>
@@ -23,6 +24,7 @@ SHADER(common_near)
 SHADER(common_neighbors)
 SHADER(common_contact)
 SHADER(common_sorting)
+SHADER(common_sums)
 SHADER(solve_scan_reduce)
 SHADER(solve_scan_write)
 SHADER(wcsph_begin)
@@ -44,6 +46,8 @@ SHADER(wcsph_kick)
 SHADER(wcsph_finish)
 SHADER(wcsph_first_step)
 SHADER(wcsph_health)
+SHADER(wcsph_diagnose)
+SHADER(wcsph_gather)
 
 static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
     [WEIR_WCSPH_parameters] = {"parameters", "buffer parameters", true, false, NULL, NULL},
@@ -90,6 +94,7 @@ static const WeirPartFunction functions[] = {
 };
 #undef COPY
 
+static const char *const sums_part[] = {weir_wgsl_common_sums, NULL};
 static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
 static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
                                           weir_wgsl_common_bodies, NULL};
@@ -162,6 +167,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_FIRST_STEP] = {WCSPH(first_step), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_HEALTH] = {WCSPH(health), NULL, NULL, BIT(coordinate) | BIT(id), BIT(control),
                            WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_DIAGNOSE] = {WCSPH(diagnose), NULL, sums_part, PARTICLES, BIT(fluid_sums), WEIR_ITEMS_SUMS},
+    [WEIR_WCSPH_GATHER] = {WCSPH(gather), NULL, NULL, PARTICLES | BIT(id) | BIT(looks),
+                           BIT(gathered) | BIT(found), WEIR_ITEMS_SUMS},
 };
 
 #define PARTS(dimension)                                                                                     \
@@ -219,6 +227,8 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
         traits->emitter_count > 0 ? 4 * (slots + blocks + world->point_count) : 16;
     sizes[WEIR_WCSPH_nozzle].bytes = 16 * at_least_one(world->point_count);
     sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
+    sizes[WEIR_WCSPH_fluid_sums].bytes = weir_sums_bytes(constants->particle_count);
+    weir_gpu_wcsph_probe_sizes(traits, sizes);
     sizes[WEIR_WCSPH_sort_groups].bytes = 2 * 16 * WEIR_SORT_SIZES;
     sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
@@ -267,13 +277,15 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("DRAINS", drains > 0 ? drains : 1);
     NUMBER("DRAIN_GROUPS", traits->drain_group_count);
     NUMBER("DRAIN_GROUP", (uint32_t)WEIR_DRAIN_GROUP);
+    NUMBER("MOST_LOOKS", (uint32_t)WEIR_MAX_PROBES);
 #undef NUMBER
 #undef FLAG
 #undef APPEND
 #define PASS(name) (1u << WEIR_WCSPH_##name)
     uint32_t needed = PASS(BEGIN) | PASS(DRIFT) | PASS(COUNT) | PASS(SCAN_REDUCE) | PASS(SCAN_WRITE) |
                       PASS(SCATTER) | PASS(NEIGHBORS) | PASS(FORCES) | PASS(BEGIN_READ) | PASS(FORCES_READ) |
-                      PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH);
+                      PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH) | PASS(DIAGNOSE);
+    if (traits->probe_count > 0) needed |= PASS(GATHER);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     needed |= traits->solid_count > 0 ? PASS(WALLS) | PASS(SOLID_FORCES_READ) : PASS(TIME_STEP);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);

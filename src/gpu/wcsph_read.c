@@ -1,5 +1,7 @@
-// From the device to the host: the clock and the particles' health while steps run, and the whole state by id.
+// From the device to the host: the clock and the particles' health while steps run, sums over the fluid, and the whole state
+// by id.
 #include "core/solids.h"
+#include "gpu/sums.h"
 #include "gpu/wcsph.h"
 
 #include <stddef.h>
@@ -57,10 +59,12 @@ static const struct Piece {
     WeirWcsphBuffer name;
     uint32_t per_particle; // bytes; 0: the whole buffer
     uint32_t copy;
+    bool evaluated; // left out where motion alone is wanted
 } pieces[WEIR_WCSPH_PIECES] = {
-    {WEIR_WCSPH_coordinate, 16, 1}, {WEIR_WCSPH_motion, 16, 1},     {WEIR_WCSPH_id, 4, 0},
-    {WEIR_WCSPH_kicked, 16, 0},     {WEIR_WCSPH_solid_state, 0, 0}, {WEIR_WCSPH_solid_sum, 0, 0},
-    {WEIR_WCSPH_control, 0, 0},
+    {WEIR_WCSPH_coordinate, 16, 1, false}, {WEIR_WCSPH_motion, 16, 1, false},
+    {WEIR_WCSPH_id, 4, 0, false},          {WEIR_WCSPH_kicked, 16, 0, true},
+    {WEIR_WCSPH_solid_state, 0, 0, false}, {WEIR_WCSPH_solid_sum, 0, 0, true},
+    {WEIR_WCSPH_control, 0, 0, false},
 };
 
 void weir_gpu_wcsph_piece_sizes(const WeirBufferSize sizes[WEIR_WCSPH_BUFFER_TOTAL], uint32_t particle_count,
@@ -86,19 +90,25 @@ static void restore(WeirWcsphGpu *solver)
     solver->restored = true;
 }
 
+// The state as it is, where motion alone is wanted; otherwise a working copy, on which accelerations, pressures and forces
+// on solids are evaluated.
 void weir_gpu_wcsph_copy_state(WeirGpuSolver *common)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "read");
     bool restores = solver->blown_up && !solver->restored;
+    bool motion = common->copied_motion = common->wants_motion && !solver->blown_up;
     if (restores) restore(solver);
-    weir_gpu_wcsph_evaluate(solver, encoder, restores ? WEIR_EVALUATE_RESTORED : WEIR_EVALUATE_STATE);
+    if (!motion)
+        weir_gpu_wcsph_evaluate(solver, encoder, restores ? WEIR_EVALUATE_RESTORED : WEIR_EVALUATE_STATE);
     for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) {
         const WeirBuffers *buffers = &common->buffers;
+        if (motion && pieces[n].evaluated) continue;
+        uint32_t copy = motion ? 0 : pieces[n].copy;
         bool apart = buffers->parts[pieces[n].name] > 1;
-        WGPUBuffer from = buffers->handle[pieces[n].name][apart ? pieces[n].copy : 0];
-        uint64_t offset = apart ? 0 : pieces[n].copy * buffers->size[pieces[n].name].bytes;
-        weir_readback_copy(common->state_copy, encoder, n, from, offset);
+        WGPUBuffer from = buffers->handle[pieces[n].name][apart ? copy : 0];
+        uint64_t offset = apart ? 0 : copy * buffers->size[pieces[n].name].bytes;
+        weir_readback_copy(common->state_copy.readback, encoder, n, from, offset);
     }
     weir_gpu_submit(common->gpu, encoder, "read");
 }
@@ -117,21 +127,24 @@ typedef struct View {
 static View view_of(const WeirGpuSolver *common)
 {
     const void *at[WEIR_WCSPH_PIECES];
-    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) at[n] = weir_readback_data(common->state_copy, n);
+    for (uint32_t n = 0; n < WEIR_WCSPH_PIECES; ++n) {
+        bool came = !(common->copied_motion && pieces[n].evaluated);
+        at[n] = came ? weir_readback_data(common->state_copy.readback, n) : NULL;
+    }
     return (View){at[0], at[1], at[2], at[3], at[4], at[5], at[6]};
 }
 
-static void take_solids(WeirWcsphGpu *solver, const View *view)
+void weir_gpu_wcsph_take_solids(WeirWcsphGpu *solver, const WeirSolidState *solids, const float *sums)
 {
     const WeirWcsphTraits *traits = &solver->traits;
-    memcpy(solver->host_solids, view->solids, traits->solid_count * sizeof *solver->host_solids);
+    memcpy(solver->host_solids, solids, traits->solid_count * sizeof *solver->host_solids);
     for (uint32_t n = 0; n < traits->solid_count; ++n) {
         double force[3] = {0.0, 0.0, 0.0}, torque[3] = {0.0, 0.0, 0.0};
         for (uint32_t b = 0; b < traits->block_count; ++b) {
             if (solver->blocks[b][0] != n) continue;
             for (int axis = 0; axis < 3; ++axis) {
-                force[axis] += (double)view->sums[16 * b + axis];
-                torque[axis] += (double)view->sums[16 * b + 4 + axis];
+                force[axis] += (double)sums[16 * b + axis];
+                torque[axis] += (double)sums[16 * b + 4 + axis];
             }
         }
         for (int axis = 0; axis < 3; ++axis) {
@@ -160,14 +173,19 @@ static double wrapped(int32_t place, uint32_t period)
     return place < 0 ? (double)place + period : place >= (int32_t)period ? (double)place - period : place;
 }
 
-static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
+void weir_gpu_wcsph_position(const WeirConstants *constants, const int32_t *place, float *position)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        position[axis] = (float)((double)constants->origin[axis] +
+                                 wrapped(place[axis], periods[axis]) * (double)constants->quantum);
+}
+
+static WeirState order_motion(WeirWcsphGpu *solver, const View *view)
 {
     const WeirConstants *constants = &solver->common.constants;
     uint32_t count = constants->particle_count, dimension = constants->dimension;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float *position = solver->host, *velocity = position + (size_t)dimension * count;
-    float *acceleration = velocity + (size_t)dimension * count;
-    float *density = acceleration + (size_t)dimension * count, *pressure = density + count;
     for (size_t i = 0; i < count; ++i) {
         uint32_t id = view->id[i], group = (uint32_t)view->coordinate[4 * i + 3];
         if (id >= count) continue; // only a broken device could do that
@@ -176,36 +194,60 @@ static WeirState order_by_id(WeirWcsphGpu *solver, const View *view)
         memcpy(own, view->motion + 4 * i, sizeof own);
         if (solid && group - WEIR_GROUP_SOLID < solver->traits.solid_count && id >= constants->first_solid)
             solid_velocity(solver, group, id, own);
-        for (uint32_t axis = 0; axis < dimension; ++axis) {
-            size_t k = (size_t)dimension * id + axis;
-            double place = wrapped(view->coordinate[4 * i + axis], periods[axis]);
-            position[k] = (float)((double)constants->origin[axis] + place * (double)constants->quantum);
-            velocity[k] = empty ? 0.0f : own[axis];
-            acceleration[k] = empty ? 0.0f : view->kicked[4 * i + axis];
-        }
-        density[id] = empty ? 0.0f : solver->common.parameters.rest_density + view->motion[4 * i + 3];
-        pressure[id] = empty ? 0.0f : view->kicked[4 * i + 3];
+        weir_gpu_wcsph_position(constants, view->coordinate + 4 * i, position + (size_t)dimension * id);
+        for (uint32_t axis = 0; axis < dimension; ++axis)
+            velocity[(size_t)dimension * id + axis] = empty ? 0.0f : own[axis];
         solver->host_group[id] = group;
     }
-    return (WeirState){
-        .count = count,
-        .dimension = dimension,
-        .step = solver->steps_before + view->control->steps,
-        .position = position,
-        .velocity = velocity,
-        .acceleration = acceleration,
-        .density = density,
-        .pressure = pressure,
-        .group = solver->host_group,
-        .solids = solver->host_solids,
-        .time = seconds_of(view->control->time),
-    };
+    return (WeirState){.count = count,
+                       .dimension = dimension,
+                       .position = position,
+                       .velocity = velocity,
+                       .group = solver->host_group};
 }
 
-WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, WeirState *state)
+static void order_evaluated(WeirWcsphGpu *solver, const View *view, WeirState *state)
 {
+    size_t count = state->count, dimension = state->dimension;
+    float *acceleration = solver->host + 2 * dimension * count;
+    float *density = acceleration + dimension * count, *pressure = density + count;
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t id = view->id[i];
+        if (id >= count) continue;
+        bool empty = (uint32_t)view->coordinate[4 * i + 3] == WEIR_GROUP_EMPTY;
+        for (size_t axis = 0; axis < dimension; ++axis)
+            acceleration[dimension * id + axis] = empty ? 0.0f : view->kicked[4 * i + axis];
+        density[id] = empty ? 0.0f : solver->common.parameters.rest_density + view->motion[4 * i + 3];
+        pressure[id] = empty ? 0.0f : view->kicked[4 * i + 3];
+    }
+    state->acceleration = acceleration;
+    state->density = density;
+    state->pressure = pressure;
+    state->solids = solver->host_solids;
+}
+
+void weir_gpu_wcsph_take_moment(const WeirWcsphGpu *solver, const WeirWcsphControl *control, WeirState *state)
+{
+    state->step = solver->steps_before + control->steps;
+    state->time = seconds_of(control->time);
+}
+
+static WeirStatus take_motion(WeirWcsphGpu *solver, const View *view, WeirState *state)
+{
+    if (!solver->common.wants_motion) return WEIR_PENDING; // by now it is not enough
+    if (view->control->bad_step != UINT32_MAX) return WEIR_ERROR_UNSTABLE;
+    memcpy(solver->host_solids, view->solids, solver->traits.solid_count * sizeof *solver->host_solids);
+    *state = order_motion(solver, view);
+    weir_gpu_wcsph_take_moment(solver, view->control, state);
+    return WEIR_OK;
+}
+
+WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, void *found)
+{
+    WeirState *state = found;
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     View view = view_of(common);
+    if (common->copied_motion) return take_motion(solver, &view, state);
     bool bad = view.control->bad_step != UINT32_MAX;
     if (bad && !solver->restored) {
         // Nothing was evaluated: copy again what was good.
@@ -214,12 +256,37 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, WeirState *state)
         solver->blown_up = true;
         return WEIR_PENDING;
     }
-    take_solids(solver, &view);
-    *state = order_by_id(solver, &view);
+    weir_gpu_wcsph_take_solids(solver, view.solids, view.sums);
+    *state = order_motion(solver, &view);
+    order_evaluated(solver, &view, state);
+    weir_gpu_wcsph_take_moment(solver, view.control, state);
     if (bad) {
         // The sorted particles are half a step before the end of the bad one.
         --state->step;
         state->time -= 0.5 * (double)view.control->dt;
     }
+    return WEIR_OK;
+}
+
+// ---- Sums ----
+
+void weir_gpu_wcsph_copy_sums(WeirGpuSolver *common)
+{
+    WGPUCommandEncoder encoder = weir_gpu_solver_commands(common, "diagnose");
+    WeirRecorder recorder = weir_recorder_begin(common, encoder);
+    weir_record(&recorder, WEIR_WCSPH_DIAGNOSE);
+    weir_recorder_end(&recorder);
+    weir_sums_copy(common, encoder, WEIR_WCSPH_fluid_sums);
+    weir_gpu_submit(common->gpu, encoder, "diagnose");
+}
+
+WeirStatus weir_gpu_wcsph_take_sums(WeirGpuSolver *common, void *found)
+{
+    const WeirWcsphGpu *solver = (const WeirWcsphGpu *)common;
+    WeirDiagnosticSums *sums = found;
+    const WeirWcsphControl *control = weir_sums_take(common, sums);
+    if (control->bad_step != UINT32_MAX) return WEIR_ERROR_UNSTABLE;
+    sums->step = solver->steps_before + control->steps;
+    sums->time = seconds_of(control->time);
     return WEIR_OK;
 }

@@ -96,10 +96,10 @@ float *weir_test_read(WeirSim *sim, WeirField field)
     return values;
 }
 
-WeirDiagnostics weir_test_diagnose(WeirSim *sim, bool count_neighbors)
+WeirDiagnostics weir_test_diagnose(WeirSim *sim, uint32_t flags)
 {
     WeirDiagnostics diagnostics;
-    CHECK_SIM(sim, weir_sim_diagnose(sim, count_neighbors, &diagnostics), WEIR_OK);
+    CHECK_SIM(sim, weir_sim_diagnose(sim, flags, &diagnostics), WEIR_OK);
     return diagnostics;
 }
 
@@ -117,7 +117,7 @@ void weir_test_set_state(WeirSim *sim, const float *positions, const float *velo
 
 uint64_t weir_test_hash(WeirSim *sim)
 {
-    return weir_test_diagnose(sim, false).state_hash;
+    return weir_test_diagnose(sim, WEIR_DIAGNOSE_HASH).state_hash;
 }
 
 WeirScene *weir_test_dam(void)
@@ -133,5 +133,44 @@ WeirScene *weir_test_drops(void)
     WeirScene *scene = weir_test_scene(0.02, 0.05, 0, 1);
     weir_test_ball(scene, 0.35, 0.47, 0.14, 1, 0);
     weir_test_ball(scene, 0.65, 0.53, 0.14, -1, 0.25);
+    return scene;
+}
+
+void weir_test_box_of(WeirScene *scene, const char *piece, const double min[3], const double max[3])
+{
+    char path[64];
+    uint32_t dimension = weir_scene_dimension(scene);
+    snprintf(path, sizeof path, "%s.min", piece);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, min, dimension), WEIR_OK);
+    snprintf(path, sizeof path, "%s.max", piece);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, path, max, dimension), WEIR_OK);
+}
+
+WeirScene *weir_test_everything(uint32_t dimension)
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
+    weir_test_set(scene, "particle_spacing", dimension == 2 ? 0.02 : 0.04);
+    weir_test_set(scene, "sound_speed", 30);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){-3, 7, 1}, (double[]){-2, 7.6, 1.36}),
+                WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_add_box(scene, (double[]){-3, 7, 1}, (double[]){-2.6, 7.4, 1.36},
+                                   (double[]){0.5, -0.25, 0.125}),
+                WEIR_OK);
+    weir_test_box_of(scene, "walls[0].box", (double[]){-2.5, 7, 1}, (double[]){-2.4, 7.1, 1.36});
+    weir_test_box_of(scene, "bodies[0].box", (double[]){-2.52, 7.2, 1.08}, (double[]){-2.4, 7.32, 1.28});
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 500), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "bodies[0].name", "body"), WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_set_numbers(scene, "emitters[0].center", (double[]){-2.2, 7.4, 1.18}, dimension),
+                WEIR_OK);
+    CHECK_SCENE(scene,
+                weir_scene_set_numbers(scene, "emitters[0].direction", (double[]){0, -1, 0}, dimension),
+                WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "emitters[0].size", 0.12), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "emitters[0].speed", 3), WEIR_OK);
+    weir_test_box_of(scene, "drains[0]", (double[]){-2.3, 7.1, 1}, (double[]){-2.1, 7.3, 1.36});
     return scene;
 }

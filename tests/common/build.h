@@ -27,7 +27,7 @@ WeirScene *weir_test_count_scene(uint32_t count, double size, double particle_sp
 
 // malloc'd copy of a field.
 float *weir_test_read(WeirSim *sim, WeirField field);
-WeirDiagnostics weir_test_diagnose(WeirSim *sim, bool count_neighbors);
+WeirDiagnostics weir_test_diagnose(WeirSim *sim, uint32_t flags);
 void weir_test_step(WeirSim *sim, uint32_t steps);
 void weir_test_set_state(WeirSim *sim, const float *positions, const float *velocities);
 uint64_t weir_test_hash(WeirSim *sim);
@@ -36,3 +36,7 @@ uint64_t weir_test_hash(WeirSim *sim);
 WeirScene *weir_test_dam(void);
 // Two balls without gravity that meet at 2 m/s in the middle of the domain and touch no wall for 100 steps.
 WeirScene *weir_test_drops(void);
+// `piece`.min and .max, as of "walls[0].box".
+void weir_test_box_of(WeirScene *scene, const char *piece, const double min[3], const double max[3]);
+// `wcsph` away from the origin: fluid that falls over a wall, a body named "body", an emitter above a drain.
+WeirScene *weir_test_everything(uint32_t dimension);

@@ -35,7 +35,7 @@ static void a_far_column_falls_as_the_near_one(const WeirBackend *backend)
         add_box(scene, far ? 99.9 : 0, far ? 100 : 0.1, 0.15);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         weir_test_step(sim, 100);
-        found[far] = weir_test_diagnose(sim, false);
+        found[far] = weir_test_diagnose(sim, 0);
         CHECK_SIM(sim, weir_sim_poll(sim), WEIR_OK);
         clock[far] = weir_sim_clock(sim);
         weir_sim_destroy(sim);
@@ -137,6 +137,10 @@ static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *b
     CHECK_CONTAINS(weir_sim_error(sim), "stepping adaptive");
     float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
           *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
+    WeirDiagnostics last = weir_test_diagnose(sim, 0), same = weir_test_diagnose(sim, WEIR_DIAGNOSE_HASH);
+    same.state_hash = 0;
+    assert_memory_equal(&last, &same, sizeof last);
+    assert_true(isfinite(last.kinetic_energy));
     // It may be one in the middle of a step, half of which the fastest good particle has gone from the walls' seal.
     double limit = 4 * weir_sim_clock(sim).sound_speed, reach = 0.02 + limit * 2.5 * stable;
     for (uint32_t k = 0; k < 2 * weir_sim_fluid_slots(sim); ++k) {
@@ -247,7 +251,7 @@ static void bodies_sink_to_the_ground(const WeirBackend *backend)
         double largest = 0;
         for (double time = 0.02; time < 0.31; time += 0.02) {
             CHECK_SIM(sim, weir_sim_run_until(sim, time), WEIR_OK);
-            WeirDiagnostics found = weir_test_diagnose(sim, false);
+            WeirDiagnostics found = weir_test_diagnose(sim, 0);
             assert_int_equal(found.lost_particles, 0);
             largest = fmax(largest, found.max_speed);
         }
@@ -274,7 +278,7 @@ static void a_flyer_shakes_nothing_else(const WeirBackend *backend)
                     WEIR_OK);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         CHECK_SIM(sim, weir_sim_run_until(sim, 0.25), WEIR_OK);
-        WeirDiagnostics found = weir_test_diagnose(sim, false);
+        WeirDiagnostics found = weir_test_diagnose(sim, 0);
         double mass = 1000 * 0.02 * 0.02;
         energy[fast] = found.kinetic_energy - 0.5 * mass * v[0] * v[0];
         weir_sim_destroy(sim);
@@ -319,9 +323,9 @@ static void a_body_gets_what_the_fluid_loses(const WeirBackend *backend)
                     WEIR_OK);
         double mass = 1500 * (dimension == 2 ? 0.04 : 0.008);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
-        WeirDiagnostics before = weir_test_diagnose(sim, false);
+        WeirDiagnostics before = weir_test_diagnose(sim, 0);
         weir_test_step(sim, 40);
-        WeirDiagnostics after = weir_test_diagnose(sim, false);
+        WeirDiagnostics after = weir_test_diagnose(sim, 0);
         double body[3] = {0, 0, 0};
         add_body_momentum(sim, mass, body);
         assert_true(body[0] > 0.1 * before.momentum[0]);
@@ -559,9 +563,9 @@ static void crowded_fluid_spreads(const WeirBackend *backend)
         float shrink = (float)pow(3.0, -1.0 / dimension);
         for (uint32_t k = 0; k < floats; ++k) position[k] *= shrink;
         weir_test_set_state(sim, position, velocity);
-        double crowded = weir_test_diagnose(sim, true).mean_neighbors;
+        double crowded = weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).mean_neighbors;
         weir_test_step(sim, 300);
-        CHECK_AT_MOST(weir_test_diagnose(sim, true).mean_neighbors, 0.7 * crowded);
+        CHECK_AT_MOST(weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).mean_neighbors, 0.7 * crowded);
         free(position);
         free(velocity);
         weir_sim_destroy(sim);

@@ -156,9 +156,9 @@ static void parameters_change_while_it_runs(const WeirBackend *backend)
     CHECK_NEAR(values[1], 0, 0);
     CHECK_SCENE(scene, weir_scene_get_parameter(scene, "gravity", values), WEIR_OK);
     CHECK_NEAR(values[1], -9.81, 1e-6);
-    double before = weir_test_diagnose(sim, false).momentum[0];
+    double before = weir_test_diagnose(sim, 0).momentum[0];
     weir_test_step(sim, 10);
-    WeirDiagnostics after = weir_test_diagnose(sim, false);
+    WeirDiagnostics after = weir_test_diagnose(sim, 0);
     double mass = weir_sim_constants(sim)->particle_mass * weir_sim_particle_count(sim);
     double pushed = 50 * 10 * weir_sim_parameters(sim)->time_step * mass;
     CHECK_NEAR(after.momentum[0] - before, pushed, 0.25 * pushed); // the left wall pushes as well
@@ -205,7 +205,53 @@ static void reading_needs_room(const WeirBackend *backend)
     weir_scene_destroy(scene);
 }
 
+// Places and velocities are read without evaluating; they are those of a full read, walls that move and slide included, and
+// change nothing that follows.
+static void reads_of_motion_are_those_of_full_reads(const WeirBackend *backend)
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    weir_test_set(scene, "particle_spacing", 0.05);
+    weir_test_set(scene, "support_radius", 0.15);
+    weir_scene_set_domain(scene, (double[3]){0, 0, 0}, (double[3]){2, 1, 1});
+    weir_scene_add_box(scene, (double[3]){0, 0, 0}, (double[3]){1, 0.4, 0}, NULL);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.min", (double[]){1.5, 0.2}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.max", (double[]){1.7, 0.4}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].motion.velocity", (double[]){-1, 0}, 2),
+                WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "walls[0].motion.angular_velocity", 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].box.min", (double[]){1.1, 0.6}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].box.max", (double[]){1.3, 0.8}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].surface_velocity", (double[]){0, 0.3}, 2),
+                WEIR_OK);
+    WeirSim *motion = weir_test_sim(scene, backend, 1), *full = weir_test_sim(scene, backend, 2);
+    size_t bytes = 2 * weir_sim_particle_count(motion) * sizeof(float);
+    float *both = malloc(2 * bytes);
+    assert_non_null(both);
+    for (int n = 0; n < 3; ++n) {
+        weir_test_step(motion, 20);
+        weir_test_step(full, 20);
+        free(weir_test_read(full, WEIR_FIELD_PRESSURE));
+        size_t floats = bytes / sizeof *both;
+        CHECK_SIM(motion, weir_sim_read_motion(motion, both, both + floats, floats), WEIR_OK);
+        assert_int_equal(weir_sim_read_motion(motion, both, both + floats, floats - 1), WEIR_ERROR_INPUT);
+        for (int field = WEIR_FIELD_POSITION; field <= WEIR_FIELD_VELOCITY; ++field) {
+            float *a = weir_test_read(motion, (WeirField)field), *b = weir_test_read(full, (WeirField)field);
+            assert_memory_equal(a, b, bytes);
+            assert_memory_equal(a, both + (field == WEIR_FIELD_VELOCITY ? floats : 0), bytes);
+            free(a);
+            free(b);
+        }
+    }
+    assert_true(weir_test_hash(motion) == weir_test_hash(full)); // reads the densities too
+    free(both);
+    weir_sim_destroy(motion);
+    weir_sim_destroy(full);
+    weir_scene_destroy(scene);
+}
+
 static const WeirSharedTest tests[] = {
+    WEIR_SHARED_TEST(reads_of_motion_are_those_of_full_reads),
     WEIR_SHARED_TEST(two_runs_have_equal_bits),
     WEIR_SHARED_TEST(two_simulations_do_not_disturb_each_other),
     WEIR_SHARED_TEST(reading_changes_nothing),

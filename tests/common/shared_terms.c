@@ -262,9 +262,9 @@ static void momentum_is_kept_to_round_off(const WeirBackend *backend)
         weir_test_set(scene, "density_diffusion", 0.1);
         weir_test_set(scene, "shifting", 2);
         WeirSim *sim = start(scene, backend, ring_of_density);
-        WeirDiagnostics before = weir_test_diagnose(sim, false);
+        WeirDiagnostics before = weir_test_diagnose(sim, 0);
         weir_test_step(sim, 20);
-        WeirDiagnostics after = weir_test_diagnose(sim, false);
+        WeirDiagnostics after = weir_test_diagnose(sim, 0);
         assert_int_equal(after.step, 20);
         assert_true(after.kinetic_energy != before.kinetic_energy);
         double scale = 1000 * 0.64 * 0.3; // mass of the block times the largest speed

@@ -90,7 +90,7 @@ static void impossible_tools_are_refused(const WeirBackend *backend)
     for (size_t n = 0; n < sizeof bad / sizeof bad[0]; ++n)
         CHECK_SIM(sim, weir_sim_set_tool(sim, &bad[n]), WEIR_ERROR_INPUT);
     weir_test_step(sim, 3);
-    assert_int_equal(weir_test_diagnose(sim, false).lost_particles, 0);
+    assert_int_equal(weir_test_diagnose(sim, 0).lost_particles, 0);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);
 }

@@ -104,7 +104,7 @@ static void shaken_box_keeps_all(const WeirBackend *backend)
     for (int n = 0; n < 4; ++n) {
         CHECK_SIM(sim, weir_sim_set_parameter(sim, "gravity", directions[n], 2), WEIR_OK);
         weir_test_step(sim, 100);
-        WeirDiagnostics diagnostics = weir_test_diagnose(sim, false);
+        WeirDiagnostics diagnostics = weir_test_diagnose(sim, 0);
         assert_int_equal(diagnostics.lost_particles, 0);
         assert_true(diagnostics.max_speed > 1);
     }

@@ -135,7 +135,7 @@ static void time_counts_the_steps_as_taken(void **state)
     CHECK_SIM(sim, weir_sim_set_parameter(sim, "time_step", &second, 1), WEIR_OK);
     weir_test_step(sim, 10);
     CHECK_NEAR(weir_sim_time(sim), 10 * first + 10 * second, 1e-15);
-    CHECK_NEAR(weir_test_diagnose(sim, false).time, 10 * first + 10 * second, 1e-15);
+    CHECK_NEAR(weir_test_diagnose(sim, 0).time, 10 * first + 10 * second, 1e-15);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);
 }
@@ -161,45 +161,6 @@ static void reset_keeps_changed_parameters(void **state)
     weir_scene_destroy(scene);
 }
 
-// Places and velocities are read without evaluating; they are those of a full read, walls that move and slide included, and
-// change nothing that follows.
-static void reads_of_motion_are_those_of_full_reads(void **state)
-{
-    (void)state;
-    WeirScene *scene = weir_scene_create();
-    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
-    weir_test_set(scene, "particle_spacing", 0.05);
-    weir_test_set(scene, "support_radius", 0.15);
-    weir_scene_set_domain(scene, (double[3]){0, 0, 0}, (double[3]){2, 1, 1});
-    weir_scene_add_box(scene, (double[3]){0, 0, 0}, (double[3]){1, 0.4, 0}, NULL);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.min", (double[]){1.5, 0.2}, 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].box.max", (double[]){1.7, 0.4}, 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[0].motion.velocity", (double[]){-1, 0}, 2),
-                WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_number(scene, "walls[0].motion.angular_velocity", 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].box.min", (double[]){1.1, 0.6}, 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].box.max", (double[]){1.3, 0.8}, 2), WEIR_OK);
-    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "walls[1].surface_velocity", (double[]){0, 0.3}, 2),
-                WEIR_OK);
-    WeirSim *motion = weir_test_sim(scene, NULL, 1), *full = weir_test_sim(scene, NULL, 2);
-    size_t bytes = 2 * weir_sim_particle_count(motion) * sizeof(float);
-    for (int n = 0; n < 3; ++n) {
-        weir_test_step(motion, 20);
-        weir_test_step(full, 20);
-        free(weir_test_read(full, WEIR_FIELD_PRESSURE));
-        for (int field = WEIR_FIELD_POSITION; field <= WEIR_FIELD_VELOCITY; ++field) {
-            float *a = weir_test_read(motion, (WeirField)field), *b = weir_test_read(full, (WeirField)field);
-            assert_memory_equal(a, b, bytes);
-            free(a);
-            free(b);
-        }
-    }
-    assert_true(weir_test_hash(motion) == weir_test_hash(full)); // reads the densities too
-    weir_sim_destroy(motion);
-    weir_sim_destroy(full);
-    weir_scene_destroy(scene);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,7 +172,6 @@ int main(void)
         cmocka_unit_test(zero_steps_are_no_steps),
         cmocka_unit_test(time_counts_the_steps_as_taken),
         cmocka_unit_test(reset_keeps_changed_parameters),
-        cmocka_unit_test(reads_of_motion_are_those_of_full_reads),
     };
     return cmocka_run_group_tests_name("api", tests, NULL, NULL);
 }

@@ -92,7 +92,7 @@ static void nothing_squeezed_blows_up(void **state)
         if (round % 4 == 1) add_rotor(scene);
         WeirSim *sim = weir_test_sim(scene, NULL, 0);
         CHECK_SIM(sim, weir_sim_run_until(sim, end), WEIR_OK);
-        assert_int_equal(weir_test_diagnose(sim, false).lost_particles, 0);
+        assert_int_equal(weir_test_diagnose(sim, 0).lost_particles, 0);
         assert_int_equal(weir_sim_clock(sim).fluid_particles, weir_sim_fluid_slots(sim));
         weir_sim_destroy(sim);
         weir_scene_destroy(scene);

@@ -253,7 +253,7 @@ static void try_to_run(WeirScene *scene)
     assert_non_null(sim);
     WeirStatus status = weir_sim_step(sim, 2);
     assert_true(status == WEIR_OK || status == WEIR_ERROR_UNSTABLE);
-    assert_int_equal(weir_test_diagnose(sim, false).lost_particles, 0);
+    assert_int_equal(weir_test_diagnose(sim, 0).lost_particles, 0);
     weir_sim_destroy(sim);
 }
 
@@ -310,7 +310,7 @@ static void random_scenes_run(void **state)
         WeirSim *sim = weir_test_sim(scene, NULL, 1);
         WeirStatus status = weir_sim_step(sim, 20);
         assert_true(status == WEIR_OK || status == WEIR_ERROR_UNSTABLE);
-        assert_int_equal(weir_test_diagnose(sim, true).lost_particles, 0);
+        assert_int_equal(weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).lost_particles, 0);
         weir_sim_destroy(sim);
         weir_scene_destroy(scene);
     }
@@ -413,7 +413,8 @@ static void random_worlds_run_or_are_refused(void **state)
         WeirStatus status = weir_sim_step(sim, 3);
         assert_true(status == WEIR_OK || status == WEIR_ERROR_UNSTABLE || status == WEIR_ERROR_INPUT);
         if (status != WEIR_OK) assert_true(strlen(weir_sim_error(sim)) > 0);
-        if (status == WEIR_OK) assert_true(isfinite(weir_test_diagnose(sim, true).kinetic_energy));
+        if (status == WEIR_OK)
+            assert_true(isfinite(weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).kinetic_energy));
         ++*(status == WEIR_ERROR_INPUT ? &refused : &ran);
         weir_sim_destroy(sim);
         weir_scene_destroy(scene);

@@ -30,7 +30,7 @@ static WeirNeighborCount count(WeirSim *sim, uint32_t particles)
 
 static void check_against_diagnosis(WeirSim *sim, double most_candidates)
 {
-    double mean = weir_test_diagnose(sim, true).mean_neighbors;
+    double mean = weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).mean_neighbors;
     uint32_t fluid = weir_sim_clock(sim).fluid_particles;
     WeirNeighborCount all = count(sim, UINT32_MAX), some = count(sim, fluid / 3);
     assert_int_equal(all.particles, fluid);
@@ -66,7 +66,7 @@ static void all_pairs_offers_everybody(void **state)
     WeirSim *sim = weir_test_sim(scene, weir_cpu_backend(), 1);
     WeirNeighborCount found = count(sim, 0);
     CHECK_NEAR(found.candidates, 399.0, 0.0);
-    CHECK_NEAR(found.neighbors, weir_test_diagnose(sim, true).mean_neighbors, 1e-2);
+    CHECK_NEAR(found.neighbors, weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).mean_neighbors, 1e-2);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);
 }
@@ -76,7 +76,7 @@ static void across_a_periodic_border_all_are_counted(void **state)
     (void)state;
     WeirSim *sim = wcsph_dam(2, "x");
     WeirNeighborCount found = count(sim, 10);
-    CHECK_NEAR(found.neighbors, weir_test_diagnose(sim, true).mean_neighbors, 0.0);
+    CHECK_NEAR(found.neighbors, weir_test_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS).mean_neighbors, 0.0);
     assert_true(isnan(found.candidates));
     weir_sim_destroy(sim);
 }

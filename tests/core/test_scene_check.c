@@ -26,7 +26,7 @@ static void check_refused(WeirScene *scene, const char *const says[], size_t cou
     assert_int_equal(weir_sim_wait(sim), WEIR_ERROR_INPUT);
     assert_int_equal(weir_sim_reset(sim), WEIR_ERROR_INPUT);
     assert_int_equal(weir_sim_read(sim, WEIR_FIELD_POSITION, values, 2), WEIR_ERROR_INPUT);
-    assert_int_equal(weir_sim_diagnose(sim, true, &diagnostics), WEIR_ERROR_INPUT);
+    assert_int_equal(weir_sim_diagnose(sim, WEIR_DIAGNOSE_NEIGHBORS, &diagnostics), WEIR_ERROR_INPUT);
     assert_int_equal(weir_sim_set_state(sim, values, values), WEIR_ERROR_INPUT);
     assert_int_equal(weir_sim_set_parameter(sim, "viscosity", (double[]){1}, 1), WEIR_ERROR_INPUT);
     assert_int_equal(weir_sim_set_tool(sim, NULL), WEIR_ERROR_INPUT);

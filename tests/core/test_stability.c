@@ -38,9 +38,9 @@ static double run(const Configuration *configuration, double share, uint32_t ste
     weir_test_box(scene, 0, 0, 0.5 * size, 0.5 * size);
     weir_test_set(scene, "time_step", share * weir_scene_stable_time_step(scene));
     WeirSim *sim = weir_test_sim(scene, NULL, 0);
-    WeirDiagnostics start = weir_test_diagnose(sim, false), end;
+    WeirDiagnostics start = weir_test_diagnose(sim, 0), end;
     WeirStatus status = weir_sim_step(sim, steps);
-    CHECK_SIM(sim, weir_sim_diagnose(sim, false, &end), WEIR_OK);
+    CHECK_SIM(sim, weir_sim_diagnose(sim, 0, &end), WEIR_OK);
     weir_sim_destroy(sim);
     weir_scene_destroy(scene);
     if (status == WEIR_ERROR_UNSTABLE) return INFINITY;

@@ -100,7 +100,7 @@ static void a_device_lost_before_a_read_is_reported(void **state)
     weir_test_step(sim, 2);
     wgpuDeviceDestroy(weir_gpu_wgpu_device(gpu));
     WeirDiagnostics diagnostics;
-    assert_int_equal(weir_sim_diagnose(sim, false, &diagnostics), WEIR_ERROR_DEVICE);
+    assert_int_equal(weir_sim_diagnose(sim, 0, &diagnostics), WEIR_ERROR_DEVICE);
     CHECK_CONTAINS(weir_sim_error(sim), "GPU device was destroyed");
     weir_sim_destroy(sim);
     weir_gpu_destroy(gpu);
@@ -180,7 +180,7 @@ static void memory_is_bounded(void **state)
     assert_true(memory > 0);
     CHECK_AT_MOST((double)memory / weir_sim_particle_count(sim), 160.0);
     weir_test_step(sim, 5);
-    weir_test_diagnose(sim, false);
+    weir_test_diagnose(sim, 0);
     CHECK_SIM(sim, weir_sim_set_parameter(sim, "search", (double[]){WEIR_SEARCH_ALL_PAIRS}, 1), WEIR_OK);
     CHECK_SIM(sim, weir_sim_set_parameter(sim, "kernels", (double[]){WEIR_KERNELS_TUTORIAL}, 1), WEIR_OK);
     weir_test_step(sim, 1);

@@ -147,7 +147,7 @@ static void check_paths(WeirSim *a, WeirSim *b)
     check_array("position", actual.position, expected.position, 2 * count, 0.01 * spacing);
     check_array("velocity", actual.velocity, expected.velocity, 2 * count,
                 0.01 * largest(expected.velocity, 2 * count));
-    WeirDiagnostics first = weir_test_diagnose(a, false), second = weir_test_diagnose(b, false);
+    WeirDiagnostics first = weir_test_diagnose(a, 0), second = weir_test_diagnose(b, 0);
     CHECK_NEAR(first.kinetic_energy, second.kinetic_energy, 1e-4 * second.kinetic_energy);
     CHECK_NEAR(first.potential_energy, second.potential_energy, 1e-5 * second.potential_energy);
     CHECK_NEAR(first.density_error_mean, second.density_error_mean, 1e-4);

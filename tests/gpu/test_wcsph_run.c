@@ -1,5 +1,7 @@
 // How runs of `wcsph` on the GPU behave: equal bits, batches, end times, health, the last good state, live parameters.
 #include "adapter.h"
+#include "core/probe.h"
+#include "core/sim.h"
 #include "gpu/wcsph.h"
 #include "worlds.h"
 
@@ -30,6 +32,12 @@ static WeirState read_state(WeirSolver *solver)
     WeirStatus status = solver->interface->read(solver, &state);
     if (status != WEIR_OK) fail_msg("read: %s", solver->message.text);
     return state;
+}
+
+static WeirStatus diagnose(WeirSolver *solver)
+{
+    WeirDiagnosticSums sums;
+    return solver->interface->diagnose(solver, &sums);
 }
 
 static uint64_t mix(uint64_t hash, const void *data, size_t size)
@@ -67,6 +75,7 @@ static uint64_t run(const char *name, Course course)
     ((WeirWcsphGpu *)solver)->indirect = course.indirect;
     for (uint32_t done = 0; done < course.steps; done += course.at_a_time) {
         take_steps(solver, course.at_a_time, INFINITY);
+        if (course.reads) assert_int_equal(diagnose(solver), WEIR_OK);
         if (course.reads) read_state(solver);
     }
     uint64_t hash = hash_of(solver, test.world.solid_count);
@@ -246,6 +255,7 @@ static void a_blow_up_is_found(void **state)
         assert_true(health.first_bad_id <= 57);
         CHECK_NEAR(health.first_bad_position[0], place[0], 0.4);
         CHECK_NEAR(health.first_bad_position[1], place[1], 0.4);
+        assert_int_equal(diagnose(solver), WEIR_ERROR_UNSTABLE); // ask a read
         // It stopped there.
         take_steps(solver, 5, INFINITY);
         assert_true(health_of(solver).steps <= 1);
@@ -282,6 +292,7 @@ static void the_last_good_state_is_kept(void **state)
             fastest = fmaxf(fastest, hypotf(last.velocity[2 * i], last.velocity[2 * i + 1]));
         assert_true(fastest > 1 && fastest <= 80);
         assert_true(all_finite(last.solids[1].position, 4));
+        assert_int_equal(diagnose(solver), WEIR_ERROR_UNSTABLE);
         // It stays, and a new state goes on.
         uint64_t hash = hash_of(solver, test.world.solid_count);
         take_steps(solver, 3, INFINITY);
@@ -290,9 +301,87 @@ static void the_last_good_state_is_kept(void **state)
         assert_int_equal(health_of(solver).bad_particles, 0);
         take_steps(solver, 1, INFINITY);
         assert_int_equal(health_of(solver).steps, 1);
+        assert_int_equal(diagnose(solver), WEIR_OK);
         solver->interface->destroy(solver);
         weir_test_world_free(&test);
     }
+}
+
+static WeirStatus gather(WeirSolver *solver, WeirGathered *gathered)
+{
+    return solver->interface->gather(solver, gathered);
+}
+
+// Probes get the fluid around them and no more; where that is more than was reckoned with, or after a blow-up, a read tells.
+static void probes_get_what_they_look_at(void **state)
+{
+    (void)state;
+    const WeirProbePiece probes[] = {{.kind = WEIR_PROBE_PRESSURE, .position = {0.25, 0.3, 0}},
+                                     {.kind = WEIR_PROBE_FRONT, .direction = {3, 0, 0}},
+                                     {.kind = WEIR_PROBE_MASS, .max = {0.5, 0.3, 0}}};
+    WeirTestWorld test = weir_test_case("dam_2d");
+    WeirSolverSetup setup = weir_test_world_setup(&test);
+    setup.probes = probes;
+    setup.probe_count = 3;
+    WeirStatus status = WEIR_OK;
+    WeirMessage message = {""};
+    WeirSolver *solver =
+        weir_gpu_backend(gpu)->create_solver(weir_gpu_backend(gpu), &setup, &status, &message);
+    assert_non_null(solver);
+    take_steps(solver, 9, INFINITY);
+    WeirGathered gathered;
+    assert_int_equal(gather(solver, &gathered), WEIR_OK);
+    WeirState near = gathered.state, all = read_state(solver);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < test.world.particles.fluid_slots; ++i) {
+        const float *place = all.position + 2 * i;
+        if (!(hypot((double)place[0] - 0.25, (double)place[1] - 0.3) < 0.15)) continue;
+        assert_memory_equal(near.position + 2 * count, place, 2 * sizeof *place); // in order of id
+        assert_memory_equal(near.velocity + 2 * count, all.velocity + 2 * i, 2 * sizeof *place);
+        assert_true(near.density[count] == all.density[i] && near.pressure[count] == all.pressure[i]);
+        ++count;
+    }
+    assert_int_equal(near.count, count);
+    assert_true(count > 20 && near.step == 9 && near.time == all.time);
+    CHECK_NEAR(gathered.found[1], 3 * 0.5, 0.3);
+    CHECK_NEAR(gathered.found[2], 60, 10);
+    WeirWcsphGpu *own = (WeirWcsphGpu *)solver;
+    own->traits.most_gathered = count - 1;
+    assert_int_equal(gather(solver, &gathered), WEIR_ERROR_UNSTABLE);
+    own->traits.most_gathered = count;
+    assert_int_equal(gather(solver, &gathered), WEIR_OK);
+    set_bad(&test, 57, NAN, 0);
+    assert_int_equal(solver->interface->set_state(solver, &test.world.particles), WEIR_OK);
+    take_steps(solver, 1, INFINITY);
+    assert_int_equal(gather(solver, &gathered), WEIR_ERROR_UNSTABLE);
+    solver->interface->destroy(solver);
+    weir_test_world_free(&test);
+}
+
+// More ids than one digit of the order has.
+static void probes_get_it_in_order(void **state)
+{
+    (void)state;
+    WeirScene *scene = weir_test_scene(0.02, 0.06, 0, 3);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    weir_test_box(scene, 0, 0, 3, 2.4);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "probes[0].kind", "height"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "probes[0].position", (double[]){1.5, 0}, 2), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, weir_gpu_backend(gpu), 1);
+    WeirGathered gathered;
+    WeirState all;
+    CHECK_SIM(sim, weir_sim_gather(sim, &gathered), WEIR_OK);
+    CHECK_SIM(sim, weir_sim_state(sim, &all), WEIR_OK);
+    uint32_t count = 0, last = 0;
+    for (uint32_t i = 0; i < weir_sim_fluid_slots(sim); ++i) {
+        const float *place = all.position + 2 * i;
+        if (!(fabs((double)place[0] - 1.5) < 0.06)) continue;
+        assert_memory_equal(gathered.state.position + 2 * count++, place, 2 * sizeof *place);
+        last = i;
+    }
+    assert_true(gathered.state.count == count && count > 500 && last > 1 << 14);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
 }
 
 // The upper body overtakes the lower one, and contact holds them apart: no two of their particles come closer than half a
@@ -474,6 +563,8 @@ int main(void)
     gpu = weir_test_gpu(NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(probes_get_what_they_look_at),
+        cmocka_unit_test(probes_get_it_in_order),
         cmocka_unit_test(equal_runs_give_equal_bits),
         cmocka_unit_test(dispatches_and_checks_change_nothing),
         cmocka_unit_test(buffers_in_parts_change_nothing),

@@ -134,7 +134,7 @@ export class CpuRunner {
     frame.clock = this.#wcsph ? sim.clock() : null;
     frame.warning = sim.warning;
     if (end - this.#diagnosed > diagnoseInterval(sim.particleCount)) {
-      frame.diagnostics = sim.diagnose(false);
+      frame.diagnostics = sim.diagnose();
       this.#diagnosed = end;
     }
     return frame;

@@ -64,5 +64,5 @@ export function newStats(): EngineStats {
   };
 }
 
-// Diagnostics copy the whole state to the host: rarer for more particles.
+// Where diagnostics or probes visit all particles on the host, or copy them there: rarer for more of them.
 export const diagnoseInterval = (particles: number): number => Math.max(100, particles / 1000);

@@ -7,13 +7,14 @@ import type { PickSource } from './pick.ts';
 import { Pace } from './pace.ts';
 import { ProbeReader, ProbeSeries } from './probes.ts';
 import { canResume, type SceneDocument } from './scene_document.ts';
-import { Field, Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
+import { Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
 const framesInFlight = 2;
 const longestFrameMs = 50; // that counts for a frame's budget
 const snapshotMs = 1000;
 const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
+const diagnoseMs = 100; // the device sums up what the plots show, and gathers what probes of wcsph look at
 const settleMs = 1000; // for what is still on its way when the picture stops
 const repaintMs = 500; // of a picture that stands still: a browser may lose it
 const bytesPerParticle = 16; // of the largest array, array<vec4f>
@@ -32,6 +33,13 @@ function afterFrames(run: () => void): void {
   };
   count(4);
   setTimeout(once, 500); // a hidden page has no animation frames
+}
+
+// A copy of `values`, in the array `into` if it is as long.
+function kept(into: Float32Array<ArrayBuffer>, values: Float32Array): Float32Array<ArrayBuffer> {
+  if (into.length !== values.length) return new Float32Array(values);
+  into.set(values);
+  return into;
 }
 
 export class GpuEngine implements Engine {
@@ -57,7 +65,7 @@ export class GpuEngine implements Engine {
   #diagnosed = 0;
   #diagnosing = false;
   #snapshotAt = 0;
-  #snapshotPhase: 'idle' | 'positions' | 'velocities' = 'idle';
+  #copying = false; // the next one is under way
   #positions = new Float32Array(0);
   #velocities = new Float32Array(0);
   #snapshot: Snapshot | null = null;
@@ -133,7 +141,7 @@ export class GpuEngine implements Engine {
     this.#pace.reset();
     this.#stopped = false;
     this.#snapshot = null;
-    this.#snapshotPhase = 'idle';
+    this.#copying = false;
     this.#changed = performance.now();
     this.#snapshotAt = this.#changed - 0.8 * snapshotMs; // soon, but not in the first frames
     this.#diagnosing = false;
@@ -258,10 +266,10 @@ export class GpuEngine implements Engine {
   #measure(sim: Sim): void {
     const now = performance.now();
     if (this.#stopped || this.#destroyed) return;
-    // One copy of the state at a time.
-    if (this.#snapshotPhase === 'idle' && !this.#probing) this.#diagnose(sim, now);
-    if (this.#snapshotPhase === 'idle' && !this.#diagnosing) this.#probe(sim, now);
-    if (!this.#diagnosing && !this.#probing) this.#takeSnapshot(sim, now);
+    this.#diagnose(sim, now);
+    // One copy of the state at a time; the probes of wcsph need none.
+    if (this.#wcsph || !this.#copying) this.#probe(sim, now);
+    if (this.#wcsph || !this.#probing) this.#takeSnapshot(sim, now);
     if (now - this.#timed > passTimesMs) {
       this.stats.passes = sim.passTimes();
       this.stats.memory = this.gpu.memory;
@@ -271,8 +279,8 @@ export class GpuEngine implements Engine {
   }
 
   #diagnose(sim: Sim, now: number): void {
-    if (!this.#diagnosing && now - this.#diagnosed < diagnoseInterval(sim.particleCount)) return;
-    const diagnostics = sim.diagnose(false);
+    if (!this.#diagnosing && now - this.#diagnosed < diagnoseMs) return;
+    const diagnostics = sim.diagnose();
     this.#diagnosing = diagnostics === null;
     if (diagnostics) {
       this.stats.diagnostics = diagnostics;
@@ -281,7 +289,8 @@ export class GpuEngine implements Engine {
   }
 
   #probe(sim: Sim, now: number): void {
-    if (!this.#probing && now - this.#probed < 0.7 * diagnoseInterval(sim.particleCount)) return;
+    const interval = this.#wcsph ? diagnoseMs : diagnoseInterval(sim.particleCount);
+    if (!this.#probing && now - this.#probed < 0.7 * interval) return;
     const samples = this.#probes ? this.#probes.update() : [];
     this.#probing = samples === null;
     if (!samples) return;
@@ -289,27 +298,17 @@ export class GpuEngine implements Engine {
     for (const one of samples) this.stats.probes[one.probe]?.add(one);
   }
 
-  // Positions, then velocities of a moment later: near enough to go on from after a loss.
   #takeSnapshot(sim: Sim, now: number): void {
-    if (this.#snapshotPhase === 'idle') {
-      if (now - this.#snapshotAt < Math.max(sim.dimension === 3 ? pickMs : snapshotMs, 5 * diagnoseInterval(sim.particleCount))) return;
-      this.#snapshotPhase = 'positions';
-    }
-    if (this.#snapshotPhase === 'positions') {
-      const positions = sim.read(Field.position);
-      if (!positions) return;
-      if (this.#positions.length !== positions.length) this.#positions = new Float32Array(positions.length);
-      this.#positions.set(positions);
-      if (this.#pick) Object.assign(this.#pick, { positions: this.#positions, count: sim.fluidSlots });
-      this.#snapshotPhase = 'velocities';
-    }
-    const velocities = sim.read(Field.velocity);
-    if (!velocities) return;
-    if (this.#velocities.length !== velocities.length) this.#velocities = new Float32Array(velocities.length);
-    this.#velocities.set(velocities);
+    const interval = Math.max(sim.dimension === 3 ? pickMs : snapshotMs, 5 * diagnoseInterval(sim.particleCount));
+    if (!this.#copying && now - this.#snapshotAt < interval) return;
+    const motion = sim.readMotion();
+    this.#copying = motion === null;
+    if (!motion) return;
+    this.#positions = kept(this.#positions, motion.positions);
+    this.#velocities = kept(this.#velocities, motion.velocities);
+    if (this.#pick) Object.assign(this.#pick, { positions: this.#positions, count: sim.fluidSlots });
     const { time, steps } = this.stats;
     this.#snapshot = { positions: this.#positions, velocities: this.#velocities, time, steps };
-    this.#snapshotPhase = 'idle';
     this.#snapshotAt = now;
   }
 

@@ -21,6 +21,8 @@ export type ParameterInfo = {
 };
 
 export const enum Field { position = 0, velocity = 1, acceleration = 2, density = 3, pressure = 4, group = 5 }
+// What diagnose() is asked for beside the rest, by bit: on a GPU a copy of all particles.
+export const enum Diagnose { neighbors = 1, hash = 2 }
 export const enum ToolKind { none = 0, push = 1, pull = 2, stir = 3 }
 export const enum ColorBy { speed = 0, density = 1, densityError = 2, pressure = 3 }
 
@@ -35,7 +37,7 @@ export type Diagnostics = {
   maxSpeed: number;
   meanNeighbors: number; // negative if not asked for
   lostParticles: number;
-  stateHash: string; // 16 hexadecimal digits
+  stateHash: string; // 16 hexadecimal digits; '' if not asked for
 };
 
 export type PassTime = { name: string; milliseconds: number };
@@ -595,28 +597,54 @@ export class Sim {
   // By id; a view into wasm memory, valid until the next read() of the field or until that memory grows: use it at once
   // or copy it. null while the GPU copies.
   read(field: Field): Float32Array | null {
-    const { memory, c } = this.#context;
-    const count = this.particleCount * (field >= Field.density ? 1 : this.dimension);
-    const block = (this.#fields[field] ??= { at: memory.allocate(4 * count), view: new Float32Array(0) });
-    const status = c.weir_sim_read(this.pointer, field, block.at, count);
+    const count = this.#components(field);
+    const status = this.#context.c.weir_sim_read(this.pointer, field, this.#block(field).at, count);
     if (status === Status.pending) return null;
     this.#throwIf(status);
-    if (block.view.buffer !== c.memory.buffer) block.view = memory.floats(block.at, count);
+    return this.#view(field);
+  }
+
+  // Both of one moment, which two calls of read() do not give while the simulation runs. Views as of read().
+  readMotion(): { positions: Float32Array; velocities: Float32Array } | null {
+    const [positions, velocities] = [this.#block(Field.position), this.#block(Field.velocity)];
+    const count = this.#components(Field.position);
+    const status = this.#context.c.weir_sim_read_motion(this.pointer, positions.at, velocities.at, count);
+    if (status === Status.pending) return null;
+    this.#throwIf(status);
+    return { positions: this.#view(Field.position), velocities: this.#view(Field.velocity) };
+  }
+
+  #components(field: Field): number {
+    return this.particleCount * (field >= Field.density ? 1 : this.dimension);
+  }
+
+  // Where a field goes in wasm memory.
+  #block(field: Field): { at: number; view: Float32Array } {
+    return (this.#fields[field] ??= {
+      at: this.#context.memory.allocate(4 * this.#components(field)), view: new Float32Array(0),
+    });
+  }
+
+  #view(field: Field): Float32Array {
+    const { memory, c } = this.#context;
+    const block = this.#block(field);
+    if (block.view.buffer !== c.memory.buffer) block.view = memory.floats(block.at, this.#components(field));
     return block.view;
   }
 
-  // null while the GPU copies.
-  diagnose(countNeighbors: boolean): Diagnostics | null {
+  // `flags` of Diagnose. null while the GPU copies.
+  diagnose(flags = 0): Diagnostics | null {
     const { memory, c } = this.#context;
     return memory.scratch(8 * DIAGNOSTIC_COUNT, (at) => {
-      const status = c.weir_web_sim_diagnose(this.pointer, countNeighbors ? 1 : 0, at);
+      const status = c.weir_web_sim_diagnose(this.pointer, flags, at);
       if (status === Status.pending) return null;
       this.#throwIf(status);
       const [step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy] = memory.doubles(at, 6);
       const [maxSpeed, meanNeighbors, lostParticles, high, low] = memory.doubles(at + 72, 5);
       return {
         step, time, densityErrorMean, densityErrorMax, kineticEnergy, potentialEnergy, maxSpeed, meanNeighbors,
-        lostParticles, momentum: triple(memory.doubles(at + 48, 3), 0), stateHash: hex(high) + hex(low),
+        lostParticles, momentum: triple(memory.doubles(at + 48, 3), 0),
+        stateHash: flags & Diagnose.hash ? hex(high) + hex(low) : '',
       } as Diagnostics;
     });
   }

@@ -25,7 +25,7 @@ type Name =
   | 'weir_scene_method' | 'weir_scene_particle_count' | 'weir_scene_refuse' | 'weir_scene_set_boolean' | 'weir_scene_set_number'
   | 'weir_scene_set_numbers' | 'weir_scene_set_string' | 'weir_scene_stable_time_step' | 'weir_scene_title'
   | 'weir_scene_warning' | 'weir_sim_backend' | 'weir_sim_destroy' | 'weir_sim_device' | 'weir_sim_error'
-  | 'weir_sim_particle_count' | 'weir_sim_poll' | 'weir_sim_is_changing' | 'weir_sim_step_time' | 'weir_sim_read' | 'weir_sim_reset' | 'weir_sim_scene' | 'weir_sim_wait'
+  | 'weir_sim_particle_count' | 'weir_sim_poll' | 'weir_sim_is_changing' | 'weir_sim_step_time' | 'weir_sim_read' | 'weir_sim_read_motion' | 'weir_sim_reset' | 'weir_sim_scene' | 'weir_sim_wait'
   | 'weir_sim_set_max_steps' | 'weir_sim_set_parameter' | 'weir_sim_set_state' | 'weir_sim_status'
   | 'weir_sim_step' | 'weir_sim_time' | 'weir_sim_warning' | 'weir_web_allocate' | 'weir_web_color_map'
   | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameter'

@@ -9,7 +9,7 @@ import { chooseRange } from '../../src/legend.ts';
 import type { SceneDocument } from '../../src/scene_document.ts';
 import { SceneStore } from '../../src/scene_store.ts';
 import { Camera } from '../../src/view.ts';
-import { Status, Weir, WeirError } from '../../src/weir.ts';
+import { Diagnose, Status, Weir, WeirError } from '../../src/weir.ts';
 import { root, wasmFile } from './support.ts';
 
 const weir = await Weir.load(wasmFile('weir.wasm'), { gpu: null });
@@ -70,7 +70,7 @@ for (const [name, { steps, hash }] of Object.entries(golden)) {
     sim.step(steps);
     assert.equal(sim.poll(), Status.ok, sim.error);
     assert.equal(sim.stepCount, steps);
-    assert.equal(`0x${sim.diagnose(false)?.stateHash}`, hash);
+    assert.equal(`0x${sim.diagnose(Diagnose.hash)?.stateHash}`, hash);
     sim.destroy();
     scene.destroy();
   });
@@ -163,7 +163,7 @@ for (const [name, scene] of Object.entries(worlds)) {
       sim.step(steps);
       assert.equal(sim.poll(), Status.ok, sim.error);
       const said = JSON.parse(run.stdout) as { state_hash: string; particles: number };
-      assert.equal(said.state_hash.replace(/^0x/, ''), sim.diagnose(false)?.stateHash);
+      assert.equal(said.state_hash.replace(/^0x/, ''), sim.diagnose(Diagnose.hash)?.stateHash);
       sim.destroy();
       loaded.destroy();
     }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { Field, Status, ToolKind, Weir, WeirError, type Sim } from '../../src/weir.ts';
+import { Diagnose, Field, Status, ToolKind, Weir, WeirError, type Sim } from '../../src/weir.ts';
 import { root, wasmFile } from './support.ts';
 
 const bytes = wasmFile('weir.wasm');
@@ -52,7 +52,7 @@ test('a drop falls as gravity has it', () => {
 test('diagnostics agree with the fields', () => {
   const sim = start();
   sim.step(40);
-  const found = sim.diagnose(true);
+  const found = sim.diagnose(Diagnose.neighbors | Diagnose.hash);
   assert.ok(found);
   const velocity = read(sim, Field.velocity);
   const position = read(sim, Field.position);
@@ -76,7 +76,8 @@ test('diagnostics agree with the fields', () => {
   assert.equal(found.lostParticles, 0);
   assert.ok(found.meanNeighbors > 10 && found.meanNeighbors < 25);
   assert.match(found.stateHash, /^[0-9a-f]{16}$/);
-  assert.ok((sim.diagnose(false)?.meanNeighbors ?? 0) < 0);
+  assert.ok((sim.diagnose()?.meanNeighbors ?? 0) < 0);
+  assert.equal(sim.diagnose()?.stateHash, '');
   assert.equal(read(sim, Field.pressure).length, sim.particleCount);
   assert.equal(read(sim, Field.acceleration).length, 2 * sim.particleCount);
   sim.destroy();
@@ -95,11 +96,11 @@ test('wall time becomes steps, up to the cap', () => {
 
 test('reset goes back to the start, bit by bit', () => {
   const sim = start();
-  const from = sim.diagnose(false)?.stateHash;
+  const from = sim.diagnose(Diagnose.hash)?.stateHash;
   sim.step(20);
-  assert.notEqual(sim.diagnose(false)?.stateHash, from);
+  assert.notEqual(sim.diagnose(Diagnose.hash)?.stateHash, from);
   sim.reset();
-  assert.equal(sim.diagnose(false)?.stateHash, from);
+  assert.equal(sim.diagnose(Diagnose.hash)?.stateHash, from);
   assert.equal(sim.stepCount, 0);
   sim.destroy();
 });
@@ -166,15 +167,15 @@ test('a blow-up is told with its step and a time step that holds', () => {
 test('simulations live side by side', () => {
   const alone = start();
   alone.step(30);
-  const wanted = alone.diagnose(false)?.stateHash;
+  const wanted = alone.diagnose(Diagnose.hash)?.stateHash;
   const first = start();
   const second = start({ ...drop, parameters: { ...drop.parameters, viscosity: 5 } });
   for (let k = 0; k < 30; k++) {
     first.step(1);
     second.step(2);
   }
-  assert.equal(first.diagnose(false)?.stateHash, wanted);
-  assert.notEqual(second.diagnose(false)?.stateHash, wanted);
+  assert.equal(first.diagnose(Diagnose.hash)?.stateHash, wanted);
+  assert.notEqual(second.diagnose(Diagnose.hash)?.stateHash, wanted);
   for (const sim of [alone, first, second]) sim.destroy();
 });
 
@@ -190,7 +191,7 @@ test('views stay right when memory grows', () => {
   assert.equal((large.read(Field.position) as Float32Array).length, 2 * large.particleCount);
   assert.deepEqual(read(sim, Field.velocity), velocity);
   sim.step(5);
-  assert.equal(sim.diagnose(false)?.step, 10);
+  assert.equal(sim.diagnose()?.step, 10);
   large.destroy();
   sim.destroy();
 });
@@ -200,7 +201,7 @@ test('what is destroyed gives its memory back', () => {
     const sim = start();
     for (const field of [Field.position, Field.velocity, Field.density]) sim.read(field);
     sim.step(1);
-    sim.diagnose(true);
+    sim.diagnose(Diagnose.neighbors);
     sim.destroy();
     sim.destroy(); // twice is allowed
   };
