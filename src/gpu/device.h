@@ -5,7 +5,7 @@
 #include "gpu/gpu.h"
 #include "gpu/pipelines.h"
 
-// Threads of a workgroup, in C and WGSL alike.
+// Threads of a workgroup, in C and WGSL alike; pass forces of `wcsph` may have others.
 enum { WEIR_WORKGROUP_SIZE = 128 };
 
 // Submits that may be under way natively: enough to keep the device busy, few enough to bound the

@@ -39,13 +39,13 @@ WeirStatus weir_passes_check(const WeirPasses *passes, WeirMessage *message)
 }
 
 // Constants that C decides: binding numbers by name, sizes, and what is chosen, so that no pass branches on it.
-static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo *method, const char *settings)
+static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo *method, uint32_t threads,
+                              const char *settings)
 {
     size_t length = 0;
 #define APPEND(...)                                                                                          \
     length += (size_t)snprintf(text ? text + length : NULL, text ? capacity - length : 0, __VA_ARGS__)
-    APPEND("const WORKGROUP_SIZE = %du;\nconst SCAN_VECTORS = %du;\n", WEIR_WORKGROUP_SIZE,
-           WEIR_SCAN_VECTORS);
+    APPEND("const WORKGROUP_SIZE = %uu;\nconst SCAN_VECTORS = %du;\n", threads, WEIR_SCAN_VECTORS);
     for (uint32_t name = 0; name < method->buffer_count; ++name)
         APPEND("const BINDING_%s = %uu;\n", method->buffers[name].name, name);
     APPEND("%s", settings);
@@ -67,15 +67,15 @@ static char *append(char *end, const char *text)
     return end + length;
 }
 
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, const char *const *parts,
-                       const char *source)
+char *weir_pass_source(const WeirMethodInfo *method, uint32_t threads, const char *settings,
+                       const char *const *parts, const char *source)
 {
-    size_t constants = write_constants(NULL, 0, method, settings);
+    size_t constants = write_constants(NULL, 0, method, threads, settings);
     size_t size = constants + strlen(weir_wgsl_structs) + length_of(method->parts) + length_of(parts) +
                   strlen(source) + 1;
     char *text = malloc(size);
     if (!text) return NULL;
-    char *end = text + write_constants(text, size, method, settings);
+    char *end = text + write_constants(text, size, method, threads, settings);
     end = append(end, weir_wgsl_structs);
     for (const char *const *part = method->parts; *part; ++part) end = append(end, *part);
     for (const char *const *part = parts; part && *part; ++part) end = append(end, *part);
@@ -186,7 +186,8 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
         (size_t)snprintf(settings, capacity, "%s%s", variant->settings, info->settings ? info->settings : "");
     weir_parts_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
                        capacity - length);
-    char *source = weir_pass_source(method, settings, info->parts, info->source);
+    uint32_t threads = info->items == WEIR_ITEMS_SHARES ? passes->share_threads : WEIR_WORKGROUP_SIZE;
+    char *source = weir_pass_source(method, threads, settings, info->parts, info->source);
     free(settings);
     if (!source) return false;
     WGPUBindGroupLayout layout = passes->layout[pass];

@@ -21,10 +21,15 @@ typedef enum WeirItems {
     WEIR_ITEMS_TOTAL
 } WeirItems;
 
-// That hold so many threads.
+// Of `size` threads, that hold so many.
+static inline uint32_t weir_workgroups_of(uint32_t size, uint32_t threads)
+{
+    return (threads + size - 1) / size;
+}
+
 static inline uint32_t weir_workgroups(uint32_t threads)
 {
-    return (threads + WEIR_WORKGROUP_SIZE - 1) / WEIR_WORKGROUP_SIZE;
+    return weir_workgroups_of(WEIR_WORKGROUP_SIZE, threads);
 }
 
 typedef struct WeirPassInfo {
@@ -56,6 +61,7 @@ typedef struct WeirPasses {
     const WeirMethodInfo *method;
     const WeirBuffers *buffers;
     uint32_t groups[WEIR_ITEMS_TOTAL]; // workgroups by what a pass is spread over
+    uint32_t share_threads; // of a workgroup over WEIR_ITEMS_SHARES; others have WEIR_WORKGROUP_SIZE
     WGPUBindGroupLayout layout[WEIR_MAX_PASSES];
     WGPUBindGroup bind_group[WEIR_MAX_PASSES];
     WeirVariant variants[2];
@@ -84,10 +90,10 @@ void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePass
 void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,
                                  WGPUBuffer sizes, uint64_t offset);
 
-// The whole WGSL of a pass, 0-terminated, from malloc: constants, structs, the method's parts, `parts` (NULL for none),
+// The whole WGSL of a pass, 0-terminated, from malloc: constants (`threads` of a workgroup), structs, the method's parts, `parts` (NULL for none),
 // then `source`. NULL if memory runs out.
-char *weir_pass_source(const WeirMethodInfo *method, const char *settings, const char *const *parts,
-                       const char *source);
+char *weir_pass_source(const WeirMethodInfo *method, uint32_t threads, const char *settings,
+                       const char *const *parts, const char *source);
 // Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if
 // memory runs out.
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,

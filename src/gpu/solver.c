@@ -42,6 +42,7 @@ WeirStatus weir_gpu_solver_make(WeirGpuSolver *solver, const WeirMethodInfo *met
     solver->passes = (WeirPasses){.gpu = gpu,
                                   .method = method,
                                   .buffers = &solver->buffers,
+                                  .share_threads = WEIR_WORKGROUP_SIZE,
                                   .in_background = weir_platform_compiles_in_background()};
     WeirStatus status = weir_buffers_plan(&solver->buffers, sizes, &solver->constants, message);
     if (status == WEIR_OK) status = weir_passes_check(&solver->passes, message);

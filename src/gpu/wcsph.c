@@ -196,7 +196,8 @@ static void set_groups(WeirWcsphGpu *solver)
     const WeirConstants *constants = &solver->common.constants;
     uint32_t *groups = solver->common.passes.groups;
     uint32_t solid_particles = constants->particle_count - constants->first_solid;
-    groups[WEIR_ITEMS_SHARES] = weir_workgroups(traits->lanes * constants->particle_count);
+    groups[WEIR_ITEMS_SHARES] =
+        weir_workgroups_of(traits->share_threads, traits->lanes * constants->particle_count);
     groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
     groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
     groups[WEIR_ITEMS_BLOCKS] = traits->block_count;
@@ -338,6 +339,7 @@ static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint6
     if (status != WEIR_OK) return status;
     if (!weir_gpu_wcsph_make_gather_copy(solver))
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for probes");
+    common->passes.share_threads = solver->traits.share_threads;
     set_sort_groups(solver, scan_blocks);
     status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) weir_gpu_wcsph_write_world(solver);

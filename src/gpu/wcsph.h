@@ -108,6 +108,7 @@ typedef struct WeirWcsphTraits {
     uint32_t sort_interval;     // steps; particles may be sorted before those whose number it divides
     uint32_t emission_interval; // a multiple of it: weir_world_emission_interval()
     uint32_t lanes;             // threads that share a particle's neighbours: 1, 2, 4, 8
+    uint32_t share_threads;     // of a workgroup of pass forces
     uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
     uint32_t list_shares,
         list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many

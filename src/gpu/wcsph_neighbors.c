@@ -101,6 +101,14 @@ static uint32_t lanes_for(double particles, double neighbors, bool software)
     return lanes;
 }
 
+// Threads of a workgroup of pass forces. In 3D large workgroups lose the least where each thread has a particle of its own, and
+// small ones where several share one, for then a workgroup ends with its longest list.
+static uint32_t share_threads_for(uint32_t dimension, uint32_t lanes)
+{
+    if (dimension == 2) return WEIR_WORKGROUP_SIZE;
+    return lanes > 1 ? 64 : 256;
+}
+
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
                          const WeirConstants *constants, const WeirGpu *gpu, uint64_t most_list_bytes)
 {
@@ -108,6 +116,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
+    traits->share_threads = share_threads_for(constants->dimension, traits->lanes);
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;

@@ -115,7 +115,7 @@ static void a_shader_error_names_the_pass(void **state)
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
     char settings[WEIR_SETTINGS_LENGTH];
     weir_mueller_settings(&(WeirParameters){0}, &(WeirConstants){0}, settings);
-    char *source = weir_pass_source(&weir_mueller_method, settings, NULL, wrong);
+    char *source = weir_pass_source(&weir_mueller_method, WEIR_WORKGROUP_SIZE, settings, NULL, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});
     WGPUComputePipeline pipeline = weir_pass_pipeline(gpu, "density", "pass density", source, layout, report);

@@ -159,7 +159,7 @@ static char *make_shader(void)
                                                .drain_count = DRAINS,
                                                .drain_group_count = GROUPS},
                             settings);
-    char *source = weir_pass_source(weir_gpu_wcsph_method(2), settings, NULL, body);
+    char *source = weir_pass_source(weir_gpu_wcsph_method(2), WEIR_WORKGROUP_SIZE, settings, NULL, body);
     assert_non_null(source);
     return source;
 }
