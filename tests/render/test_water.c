@@ -186,6 +186,63 @@ static void what_stands_before_the_water_hides_it(void **state)
     weir_sim_destroy(sim);
 }
 
+// The pool's body moved to `position` and turned about y by the angle whose half has this sine.
+static void draw_moved(WeirGpu *gpu, WeirSim *sim, const WeirView *view, const float position[3],
+                       float half_sine, WeirImage *image)
+{
+    WeirGpuParticles particles;
+    WeirState now;
+    assert_true(weir_upload(gpu, sim, &particles));
+    assert_int_equal(weir_sim_state(sim, &now), WEIR_OK);
+    WeirSolidState solids[2] = {now.solids[0], now.solids[1]};
+    memcpy(solids[1].position, position, 3 * sizeof *position);
+    solids[1].orientation[1] = half_sine;
+    solids[1].orientation[3] = sqrtf(1.0f - half_sine * half_sine);
+    wgpuBufferRelease(particles.solids);
+    assert_true(weir_upload_solids(&particles, solids, 2));
+    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_upload_release(&particles);
+}
+
+// A box of 0.28 x 0.32 x 0.28 m: its faces are plain, its edges where its state says, in both styles. As balls its
+// face had bumps, and was where its particles are.
+static void a_body_is_its_shape_at_its_pose(void **state)
+{
+    const float middle[3] = {0.5f, 0.75f, 0.5f}, half = 0.14f, eighth_turn = 0.38268343f;
+    WeirSim *sim = pool(true);
+    for (int style = 0; style < 2; style++) {
+        WeirView view = view_of(style ? WEIR_FLUID_WATER : WEIR_FLUID_PARTICLES);
+        view.camera_pitch = 0.0f;
+        WeirImage straight, turned, away;
+        draw_moved(*state, sim, &view, middle, 0.0f, &straight);
+        draw_moved(*state, sim, &view, middle, eighth_turn, &turned);
+        draw_moved(*state, sim, &view, (const float[3]){0.5f, 0.2f, 0.5f}, 0.0f, &away);
+        const uint8_t *face = pixel_at(&straight, &view, 0.5f, 0.75f, 0.64f);
+        assert_true(face[0] > face[2] + 40); // warm
+        for (int k = 0; k < 25; k++) {
+            float x = 0.5f + 0.8f * half * (float)(k % 5 - 2) / 2.0f, y = 0.75f + 0.05f * (float)(k / 5 - 2);
+            assert_true(difference(face, pixel_at(&straight, &view, x, y, 0.64f)) < 15);
+        }
+        // Two pixels within and beyond the edge.
+        const float pixel = 2.2f * 2.0f * 0.3093f / SIZE, y = 0.75f;
+        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half - 2 * pixel, y, 0.64f)) < 15);
+        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half + 2 * pixel, y, 0.64f)) > 90);
+        // Turned, its edge looks at the eye, and it is as wide as its diagonal.
+        const float wide = half * 1.41421356f;
+        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide + 3 * pixel, y, 0.5f),
+                               pixel_at(&away, &view, 0.5f - wide + 3 * pixel, y, 0.5f)) > 60);
+        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide - 2 * pixel, y, 0.5f),
+                               pixel_at(&away, &view, 0.5f - wide - 2 * pixel, y, 0.5f)) < 15);
+        const uint8_t *left = pixel_at(&turned, &view, 0.5f - half / 2, y, 0.5f),
+                      *right = pixel_at(&turned, &view, 0.5f + half / 2, y, 0.5f);
+        assert_true(difference(left, right) > 15); // each face has its light
+        weir_image_destroy(&straight);
+        weir_image_destroy(&turned);
+        weir_image_destroy(&away);
+    }
+    weir_sim_destroy(sim);
+}
+
 static void no_fluid_no_water(void **state)
 {
     WeirSim *sim = pool(false);
@@ -275,6 +332,7 @@ int main(void)
         cmocka_unit_test(water_is_blue_and_even),
         cmocka_unit_test(a_body_is_seen_in_and_above_the_water),
         cmocka_unit_test(what_stands_before_the_water_hides_it),
+        cmocka_unit_test(a_body_is_its_shape_at_its_pose),
         cmocka_unit_test(no_fluid_no_water),
         cmocka_unit_test(a_lonely_particle_is_a_drop),
         cmocka_unit_test(styles_and_sizes_change),
