@@ -280,6 +280,96 @@ static void a_lonely_particle_is_a_drop(void **state)
     weir_sim_destroy(sim);
 }
 
+// Columns and rows that a drop covers which flies to the right at `share` of the speed of sound.
+static void size_of_drop(WeirGpu *gpu, WeirSim *sim, float share, uint32_t size[2])
+{
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_distance = 0.6f;
+    view.camera_pitch = 0.0f;
+    const WeirConstants *constants = weir_sim_constants(sim);
+    WeirImage images[2];
+    for (uint32_t shown = 0; shown < 2; shown++) {
+        int32_t coordinate[1][4] = {{0, 0, 0, shown ? WEIR_GROUP_FLUID : WEIR_GROUP_EMPTY}};
+        float motion[1][4] = {{share * constants->sound_speed, 0, 0, 0}};
+        for (int k = 0; k < 3; k++)
+            coordinate[0][k] =
+                (int32_t)lroundf((view.camera_target[k] - constants->origin[k]) / constants->quantum);
+        WeirGpuParticles particles;
+        assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
+        draw_particles(gpu, sim, &particles, &view, all, &images[shown]);
+        weir_upload_release(&particles);
+    }
+    bool columns[SIZE] = {false}, rows[SIZE] = {false};
+    for (uint32_t k = 0; k < SIZE * SIZE; k++) {
+        bool covered = difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 60;
+        columns[k % SIZE] |= covered;
+        rows[k / SIZE] |= covered;
+    }
+    size[0] = size[1] = 0;
+    for (uint32_t k = 0; k < SIZE; k++) {
+        size[0] += columns[k];
+        size[1] += rows[k];
+    }
+    weir_image_destroy(&images[0]);
+    weir_image_destroy(&images[1]);
+}
+
+static void a_fast_drop_is_a_streak(void **state)
+{
+    WeirSim *sim = pool(false);
+    uint32_t slow[2], fast[2];
+    size_of_drop(*state, sim, 0.0f, slow);
+    size_of_drop(*state, sim, 0.1f, fast);
+    assert_true(slow[0] > 8 && abs((int)slow[0] - (int)slow[1]) <= 1);
+    if (!(fast[0] > 2 * fast[1] && fast[0] > slow[0] + 3 && fast[1] < slow[1]))
+        fail_msg("%u x %u pixels, at rest %u x %u", fast[0], fast[1], slow[0], slow[1]);
+    weir_sim_destroy(sim);
+}
+
+// Mean red of a standing sheet, one particle thick, that moves at `share` of the speed of sound: as one, or every other
+// particle the other way.
+static double redness_of_sheet(WeirGpu *gpu, WeirSim *sim, float share, bool against)
+{
+    enum { SIDE = 16 };
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_pitch = 0.0f;
+    const WeirConstants *constants = weir_sim_constants(sim);
+    int32_t coordinate[SIDE * SIDE][4];
+    float motion[SIDE * SIDE][4] = {{0}};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const float place[3] = {0.18f + 0.04f * (float)(i % SIDE), 0.1f + 0.04f * (float)(i / SIDE), 0.5f};
+        for (int k = 0; k < 3; k++)
+            coordinate[i][k] = (int32_t)lroundf((place[k] - constants->origin[k]) / constants->quantum);
+        coordinate[i][3] = WEIR_GROUP_FLUID;
+        motion[i][1] = against && (i + i / SIDE) % 2 ? -share : share;
+        motion[i][1] *= constants->sound_speed;
+    }
+    WeirImage image;
+    WeirGpuParticles particles;
+    assert_true(weir_upload_arrays(gpu, coordinate, motion, SIDE * SIDE, &particles));
+    draw_particles(gpu, sim, &particles, &view, all, &image);
+    weir_upload_release(&particles);
+    const uint8_t *middle = pixel_at(&image, &view, 0.5f, 0.4f, 0.5f);
+    double sum = 0.0;
+    for (int y = -20; y < 20; y++) {
+        for (int x = -20; x < 20; x++) sum += middle[4 * (y * SIZE + x)];
+    }
+    weir_image_destroy(&image);
+    return sum / 1600.0;
+}
+
+// Foam is where torn water moves against itself; speed alone makes none.
+static void a_sheet_that_moves_as_one_is_clear(void **state)
+{
+    WeirSim *sim = pool(false);
+    double still = redness_of_sheet(*state, sim, 0.0f, false),
+           one = redness_of_sheet(*state, sim, 0.06f, false),
+           torn = redness_of_sheet(*state, sim, 0.06f, true);
+    if (!(fabs(one - still) < 12.0 && torn > one + 25.0))
+        fail_msg("red at rest %g, moving %g, against itself %g", still, one, torn);
+    weir_sim_destroy(sim);
+}
+
 // One renderer, both styles and several sizes in turn: textures and pipelines come and go, and the picture stays.
 static void styles_and_sizes_change(void **state)
 {
@@ -335,6 +425,8 @@ int main(void)
         cmocka_unit_test(a_body_is_its_shape_at_its_pose),
         cmocka_unit_test(no_fluid_no_water),
         cmocka_unit_test(a_lonely_particle_is_a_drop),
+        cmocka_unit_test(a_fast_drop_is_a_streak),
+        cmocka_unit_test(a_sheet_that_moves_as_one_is_clear),
         cmocka_unit_test(styles_and_sizes_change),
         cmocka_unit_test(unknown_styles_are_refused),
     };

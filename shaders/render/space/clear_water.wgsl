@@ -187,7 +187,7 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     var light = mix(through.rgb * left, glow, haze);
     let foam = 1.0 - exp(-0.75 * thickness.y / frame.spacing);
     let white = vec3f(0.66, 0.84, 0.94) * (0.60 + 0.50 * max(dot(normal, sun), 0.0)) * mix(0.7, 1.0, lit);
-    light = mix(light, white, 0.75 * foam);
+    light = mix(light, white, 0.70 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     let mirrored = reflect(direction, normal);
     var image = room(mirrored);
