@@ -148,6 +148,27 @@ static void water_is_blue_and_even(void **state)
     weir_sim_destroy(sim);
 }
 
+// Seen at an angle so flat that neighbouring pixels lie two or three spacings apart, the surface is one still.
+static void water_seen_flat_has_no_specks(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirImage image;
+    double worst = 0.0;
+    for (int k = 0; k < 4; k++) {
+        WeirView view = view_of(WEIR_FLUID_WATER);
+        view.camera_pitch = 0.05f + 0.01f * (float)k;
+        draw(*state, sim, &view, &image);
+        for (int n = 0; n < 250; n++) {
+            float x = 0.25f + 0.01f * (float)(n % 50), z = 0.3f + 0.1f * (float)(n / 50);
+            const uint8_t *pixel = pixel_at(&image, &view, x, 0.4f, z);
+            worst = fmax(worst, fmin(difference(pixel, pixel - 4), difference(pixel, pixel + 4)));
+        }
+        weir_image_destroy(&image);
+    }
+    if (!(worst < 24.0)) fail_msg("a pixel differs by %g from both beside it", worst);
+    weir_sim_destroy(sim);
+}
+
 // Its upper half as it is; its lower half through the water, darker and bluer, but there.
 static void a_body_is_seen_in_and_above_the_water(void **state)
 {
@@ -420,6 +441,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_is_blue_and_even),
+        cmocka_unit_test(water_seen_flat_has_no_specks),
         cmocka_unit_test(a_body_is_seen_in_and_above_the_water),
         cmocka_unit_test(what_stands_before_the_water_hides_it),
         cmocka_unit_test(a_body_is_its_shape_at_its_pose),
