@@ -142,7 +142,7 @@ fn room(direction: vec3f) -> vec3f {
 fn meeting(point: vec3f, ray: vec3f, before: f32, after: f32) -> f32 {
     var low = before;
     var high = after;
-    for (var k = 0; k < 5; k++) {
+    for (var k = 0; k < 4; k++) {
         let half = 0.5 * (low + high);
         let place = point + ray * half;
         if place.z > scene_ahead(nearest_pixel(view_to_pixel(place))) { high = half; } else { low = half; }

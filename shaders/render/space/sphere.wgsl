@@ -40,6 +40,11 @@ fn streak_radius(radius: f32, streak: vec4f) -> f32 {
 
 // `ray` has length 1; `miss` is that of the sphere.
 fn hit_streak(ray: vec3f, center: vec3f, radius: f32, streak: vec4f) -> Hit {
+    if streak.w == 1.0 { // most are round
+        let along = dot(ray, center);
+        let miss = length(center - ray * along);
+        return Hit(along, miss, sqrt(max(radius * radius - miss * miss, 0.0)));
+    }
     let way = squeezed(ray, streak);
     let middle = squeezed(center, streak);
     let along = dot(way, middle) / dot(way, way);
