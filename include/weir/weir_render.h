@@ -1,6 +1,7 @@
 // Draws a simulation that runs on the GPU: in 2D every particle a round anti-aliased disc, in 3D a shaded sphere,
-// the fluid coloured by a quantity; or, in 3D, the fluid as clear water with a smooth surface. All drawing reads the
-// solver's own buffers; nothing is copied to the host. Link weir_render.
+// the fluid coloured by a quantity; or, in 3D, the fluid as clear water with a smooth surface. Walls and bodies in 3D are
+// drawn as their shapes, where they are at the moment. All drawing reads the solver's own buffers; nothing is copied
+// to the host. Link weir_render.
 #pragma once
 
 #include "weir/weir_gpu.h"

@@ -46,6 +46,7 @@ struct Frame {
     faint_sides: u32,            // 2D: bit 2 axis + (0 low, 1 high): no wall is there
     water: u32,                  // 3D: 1 where the fluid is drawn as water
     spacing: f32,                // 3D: of the particles, m
+    shapes: u32,                 // 3D: 1 where walls and bodies are drawn as shapes, not as particles
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -108,6 +109,17 @@ fn pixel_noise(pixel: vec2u) -> f32 {
 // Coverage of a line of `width` pixels at `distance` from its middle.
 fn line_coverage(distance: f32, width: f32) -> f32 {
     return clamp(0.5 * width + 0.5 - abs(distance), 0.0, 1.0) * min(width, 1.0);
+}
+
+// sRGB of a wall or body. Bodies take warm colours in turn, which no colour map has beside each other.
+fn solid_color(solid: u32) -> vec3f {
+    if solid < frame.first_body { return vec3f(0.34, 0.40, 0.50); }
+    switch (solid - frame.first_body) % 4u {
+        case 0u: { return vec3f(0.93, 0.66, 0.36); }
+        case 1u: { return vec3f(0.88, 0.47, 0.38); }
+        case 2u: { return vec3f(0.60, 0.72, 0.46); }
+        default: { return vec3f(0.78, 0.55, 0.70); }
+    }
 }
 
 const line_color = vec3f(0.38, 0.66, 0.95);

@@ -12,6 +12,7 @@ fn particle_kind(particle: u32) -> u32 {
     let group = particle_group(particle);
     if group == group_empty { return HIDDEN; }
     if group == 0u || group >= group_inlet { return FLUID; }
+    if frame.shapes != 0u { return HIDDEN; } // solids.wgsl draws it
     let solid = group - 1u;
     if solid < 128u && ((frame.hidden[solid / 32u] >> (solid % 32u)) & 1u) != 0u { return HIDDEN; }
     return select(WALL, BODY, solid >= frame.first_body);
@@ -29,16 +30,8 @@ fn color_value(particle: u32) -> f32 {
     return clamp((value - frame.color_min) * frame.color_scale, 0.0, 1.0);
 }
 
-const wall_color = vec3f(0.34, 0.40, 0.50);
-
-// sRGB. Bodies take warm colours in turn, which no colour map has beside each other.
+// sRGB.
 fn particle_color(particle: u32, kind: u32) -> vec3f {
     if kind == FLUID { return color_map(color_value(particle)); }
-    if kind == WALL { return wall_color; }
-    switch (particle_group(particle) - 1u - frame.first_body) % 4u {
-        case 0u: { return vec3f(0.93, 0.66, 0.36); }
-        case 1u: { return vec3f(0.88, 0.47, 0.38); }
-        case 2u: { return vec3f(0.60, 0.72, 0.46); }
-        default: { return vec3f(0.78, 0.55, 0.70); }
-    }
+    return solid_color(particle_group(particle) - 1u);
 }

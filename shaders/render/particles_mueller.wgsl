@@ -10,6 +10,9 @@ fn particle_group(particle: u32) -> u32 {
 fn particle_position(particle: u32) -> vec3f {
     return vec3f(position[particle], 0.0);
 }
+fn particle_velocity(particle: u32) -> vec3f {
+    return vec3f(velocity[particle], 0.0);
+}
 fn particle_speed(particle: u32) -> f32 {
     return length(velocity[particle]);
 }

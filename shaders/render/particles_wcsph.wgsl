@@ -9,6 +9,9 @@ fn particle_group(particle: u32) -> u32 {
 fn particle_position(particle: u32) -> vec3f {
     return frame.origin.xyz + frame.quantum * vec3f(coordinate[particle].xyz);
 }
+fn particle_velocity(particle: u32) -> vec3f {
+    return motion[particle].xyz;
+}
 fn particle_speed(particle: u32) -> f32 {
     return length(motion[particle].xyz);
 }

@@ -345,3 +345,11 @@ void weir_shape_moments(const WeirShape *shape, uint32_t dimension, WeirShapeMom
     if (shape->kind == WEIR_SHAPE_POLYGON) polygon_moments(shape, moments);
     if (shape->kind == WEIR_SHAPE_MESH) mesh_moments(&shape->mesh, moments);
 }
+
+void weir_piece_reference(const WeirSolidPiece *piece, uint32_t dimension, double point[3])
+{
+    WeirShapeMoments moments;
+    weir_shape_moments(&piece->shape, dimension, &moments);
+    bool pivots = piece->is_driven && piece->motion.has_pivot;
+    memcpy(point, pivots ? piece->motion.pivot : moments.center, sizeof moments.center);
+}

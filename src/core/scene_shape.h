@@ -32,6 +32,10 @@ typedef struct WeirShapeMoments {
 
 void weir_shape_moments(const WeirShape *shape, uint32_t dimension, WeirShapeMoments *moments);
 
+// The point of a wall or body whose place the solver keeps: its middle, a body's centre of mass; or what its motion turns
+// about.
+void weir_piece_reference(const WeirSolidPiece *piece, uint32_t dimension, double point[3]);
+
 // Corner `index` of a mesh after scale and translate.
 static inline void weir_mesh_corner(const WeirMesh *mesh, uint32_t index, double corner[3])
 {

@@ -133,8 +133,8 @@ static WeirSolid describe(const WeirBuild *build, const WeirSolidPiece *piece, b
     weir_shape_moments(&piece->shape, build->dimension, &moments);
     WeirSolid solid = {.no_slip = piece->no_slip};
     solid.kind = piece->is_driven ? WEIR_SOLID_DRIVEN : is_body ? WEIR_SOLID_FREE : WEIR_SOLID_FIXED;
-    const double *reference = moments.center;
-    if (piece->is_driven && piece->motion.has_pivot) reference = piece->motion.pivot;
+    double reference[3];
+    weir_piece_reference(piece, build->dimension, reference);
     copy_vector(solid.position, reference, build->dimension);
     copy_vector(solid.surface_velocity, piece->surface_velocity, build->dimension);
     if (!is_body) return solid;

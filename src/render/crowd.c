@@ -13,7 +13,9 @@ extern const char weir_wgsl_render_space_crowd_count[], weir_wgsl_render_space_c
 enum {
     GROUP_SIZE = 256,
     GROUPS_PER_ROW = 65535, // crowd.wgsl: row_length
-    MOST_CELLS = 1 << 22,   // of 4 bytes
+    MOST_CELLS = 1 << 22,
+    CELL_BYTES = 16,
+    VALUE_BYTES = 8, // of a particle
     STAGES = WEIR_CROWD_STAGES,
 };
 
@@ -97,9 +99,10 @@ static bool create_buffers(WeirCrowd *crowd, WGPUDevice device, uint32_t count, 
     release_buffers(crowd);
     crowd->cells = wgpuDeviceCreateBuffer(
         device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage | WGPUBufferUsage_CopyDst,
-                                        .size = (uint64_t)4 * cell_count});
-    crowd->values = wgpuDeviceCreateBuffer(
-        device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage, .size = (uint64_t)4 * count});
+                                        .size = (uint64_t)CELL_BYTES * cell_count});
+    crowd->values =
+        wgpuDeviceCreateBuffer(device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage,
+                                                               .size = (uint64_t)VALUE_BYTES * count});
     if (!crowd->cells || !crowd->values) return false;
     WGPUBindGroupEntry entries[2] = {{.binding = 0, .buffer = crowd->cells, .size = WGPU_WHOLE_SIZE},
                                      {.binding = 1, .buffer = crowd->values, .size = WGPU_WHOLE_SIZE}};
@@ -136,7 +139,7 @@ void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBi
     uint32_t groups = (count + GROUP_SIZE - 1) / GROUP_SIZE;
     uint32_t rows = (groups + GROUPS_PER_ROW - 1) / GROUPS_PER_ROW;
     if (groups == 0) return;
-    wgpuCommandEncoderClearBuffer(encoder, crowd->cells, 0, (uint64_t)4 * crowd->cell_count);
+    wgpuCommandEncoderClearBuffer(encoder, crowd->cells, 0, (uint64_t)CELL_BYTES * crowd->cell_count);
     WGPUComputePassEncoder pass =
         wgpuCommandEncoderBeginComputePass(encoder, &(WGPUComputePassDescriptor){.nextInChain = NULL});
     for (int stage = 0; stage < STAGES; stage++) {

@@ -15,7 +15,9 @@ extern const char weir_wgsl_render_space_backdrop[], weir_wgsl_render_space_grou
 extern const char weir_wgsl_render_space_spheres[], weir_wgsl_render_space_edges[];
 extern const char weir_wgsl_render_space_occlusion[], weir_wgsl_render_space_compose[];
 extern const char weir_wgsl_render_space_sphere[], weir_wgsl_render_space_edge[];
-extern const char weir_wgsl_render_space_light[];
+extern const char weir_wgsl_render_space_light[], weir_wgsl_render_space_gloss[];
+extern const char weir_wgsl_render_space_solid[], weir_wgsl_render_space_solids[];
+extern const char weir_wgsl_render_space_solid_shadow[];
 extern const char weir_wgsl_render_space_hollows[], weir_wgsl_render_space_liquid[];
 extern const char weir_wgsl_render_space_shade[], weir_wgsl_render_space_surface[];
 extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
@@ -33,7 +35,7 @@ typedef enum Target {
     TARGETS,
 } Target;
 
-enum { SHARED = 3 };
+enum { SHARED = 4 };
 
 typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
@@ -46,11 +48,14 @@ typedef struct Effect {
     bool adds;                  // to what is there
     bool tests_depth;           // is hidden by what is nearer
     bool writes_depth;
-    bool covers; // alpha is the share of the samples that it covers
+    bool triangles; // a list of them, else a strip
+    bool covers;    // alpha is the share of the samples that it covers
 } Effect;
 
 #define SPHERE                   weir_wgsl_render_space_sphere
 #define LIGHT                    weir_wgsl_render_space_light
+#define GLOSS                    weir_wgsl_render_space_gloss
+#define SOLID                    weir_wgsl_render_space_solid
 #define HOLLOWS                  weir_wgsl_render_space_hollows
 #define LIQUID                   weir_wgsl_render_space_liquid
 #define EDGE                     weir_wgsl_render_space_edge
@@ -62,13 +67,19 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_OVERLAY] = EFFECT("overlay", overlay, .blends = true),
     [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .particles = true,
                                   .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLID_SHADOW] =
+        EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW, .shared = {SOLID},
+               .triangles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LIGHT, LIQUID}, .blends = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLIDS] =
+        EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
+               .shared = {LIGHT, GLOSS, SOLID}, .triangles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LIGHT, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
+               .shared = {LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
                .writes_depth = true, .covers = true),
     [WEIR_EFFECT_EDGES] = EFFECT("edges", space_edges, .target = TARGET_SCENE, .shared = {EDGE},
                                  .blends = true, .tests_depth = true),
@@ -187,7 +198,8 @@ WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WG
         .label = text_view(effect->name),
         .layout = layout,
         .vertex = {.module = module, .entryPoint = text_view(vertex_entry)},
-        .primitive = {.topology = WGPUPrimitiveTopology_TriangleStrip,
+        .primitive = {.topology = effect->triangles ? WGPUPrimitiveTopology_TriangleList
+                                                    : WGPUPrimitiveTopology_TriangleStrip,
                       .frontFace = WGPUFrontFace_CCW,
                       .cullMode = WGPUCullMode_None},
         .depthStencil = has_depth ? &depth : NULL,

@@ -84,8 +84,7 @@ WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void
     return check_numbers(flat, sizeof flat / sizeof *flat, message);
 }
 
-// Number of solids before the scene's own walls: the domain's sides are one, if any is a wall.
-static uint32_t first_wall(const WeirScene *scene)
+uint32_t weir_scene_first_wall(const WeirScene *scene)
 {
     bool closed = false;
     for (uint32_t axis = 0; axis < scene->dimension; axis++) {
@@ -96,7 +95,7 @@ static uint32_t first_wall(const WeirScene *scene)
 
 WeirLook weir_scene_look(const WeirScene *scene, uint32_t solid)
 {
-    uint32_t first = first_wall(scene);
+    uint32_t first = weir_scene_first_wall(scene);
     if (solid < first) return WEIR_LOOK_HIDDEN;
     uint32_t wall = solid - first;
     if (wall >= scene->wall_count) return WEIR_LOOK_BODY;
@@ -112,7 +111,7 @@ static void fill_solids(WeirFrame *frame, const WeirScene *scene)
             frame->faint_sides |= (uint32_t)faint << (2 * axis + side);
         }
     }
-    frame->first_body = first_wall(scene) + scene->wall_count;
+    frame->first_body = weir_scene_first_wall(scene) + scene->wall_count;
     for (uint32_t solid = 0; solid < frame->first_body && solid < 128; solid++) {
         if (weir_scene_look(scene, solid) == WEIR_LOOK_HIDDEN) frame->hidden[solid / 32] |= 1u << solid % 32;
     }

@@ -32,13 +32,17 @@ typedef struct WeirFrame {
     float disc_radius;
     uint32_t faint_sides, water;
     float spacing;
+    uint32_t shapes;
+    uint32_t unused[3];
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");
 _Static_assert(offsetof(WeirFrame, tool_radius) == 224, "frame.wgsl: tool_radius");
 _Static_assert(offsetof(WeirFrame, border) == 272, "frame.wgsl: border");
-_Static_assert(sizeof(WeirFrame) == 336, "frame.wgsl: size, a multiple of 16");
+_Static_assert(sizeof(WeirFrame) == 352, "frame.wgsl: size, a multiple of 16");
 
+// Number of the solids before the scene's own walls: the domain's sides are one, if any is a wall.
+uint32_t weir_scene_first_wall(const WeirScene *scene);
 // Refuses what cannot be drawn and says why.
 WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,
                             uint32_t height, WeirMessage *message);

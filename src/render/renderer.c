@@ -144,6 +144,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
     }
     weir_space_release(renderer);
     weir_crowd_release(renderer);
+    weir_solids_release(renderer);
     if (renderer->particle_layout) wgpuBindGroupLayoutRelease(renderer->particle_layout);
     if (renderer->frame_layout) wgpuBindGroupLayoutRelease(renderer->frame_layout);
     free(renderer);
@@ -200,6 +201,7 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
                           WeirTextures textures, uint32_t number, const WeirDrawing *drawing)
 {
     uint32_t vertices = 4, instances = 1;
+    WGPUBindGroup particles = drawing->particles;
     switch (kind) {
     case WEIR_EFFECT_WATER:
     case WEIR_EFFECT_PARTICLES:
@@ -219,13 +221,19 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
         break;
     case WEIR_EFFECT_GROUND:
         break;
+    case WEIR_EFFECT_SOLIDS:
+    case WEIR_EFFECT_SOLID_SHADOW:
+        vertices = renderer->solids.corner_count;
+        if (vertices == 0) return;
+        particles = renderer->solids.group;
+        break;
     default:
         vertices = 3;
         break; // the whole picture
     }
     wgpuRenderPassEncoderSetPipeline(pass, renderer->pipelines[drawing->method][kind]);
     wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
-    wgpuRenderPassEncoderSetBindGroup(pass, 1, drawing->particles, 0, NULL);
+    wgpuRenderPassEncoderSetBindGroup(pass, 1, particles, 0, NULL);
     if (textures != WEIR_TEXTURES_NONE)
         wgpuRenderPassEncoderSetBindGroup(pass, 2, renderer->space.groups[textures], 0, NULL);
     wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
@@ -273,9 +281,12 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
     bool water = dimension == 3 && view->fluid_style == WEIR_FLUID_WATER;
     if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
     if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
+    if (status == WEIR_OK && dimension == 3)
+        status = weir_solids_prepare(renderer, weir_sim_scene(sim), particles);
     if (status != WEIR_OK) return status;
     WeirFrame frame;
     weir_frame_fill(&frame, sim, view, width, height, renderer->format);
+    frame.shapes = dimension == 3 && renderer->solids.corner_count > 0;
     if (water) status = weir_crowd_prepare(renderer, &frame, particles->count);
     if (status != WEIR_OK) return status;
     WGPUBuffer crowd = water ? renderer->crowd.values : NULL;

@@ -48,6 +48,14 @@ typedef struct WeirCrowd {
     WGPUBindGroup group;
 } WeirCrowd;
 
+// solids.c: walls and bodies as shapes.
+typedef struct WeirSolids {
+    WGPUBuffer states;     // whose shapes these are, a reference; NULL: none
+    WGPUBuffer corners;    // array<WeirCorner>
+    WGPUBindGroup group;   // in place of the particles'
+    uint32_t corner_count; // 0: walls and bodies are drawn as particles
+} WeirSolids;
+
 struct WeirRenderer {
     WeirGpu *gpu;
     WGPUTextureFormat format;
@@ -60,6 +68,7 @@ struct WeirRenderer {
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
     WeirSpace space;
     WeirCrowd crowd;
+    WeirSolids solids;
     uint64_t frame_count;
     uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
     WeirMessage message;
@@ -92,6 +101,11 @@ WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, ui
 void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
                       uint32_t count);
 void weir_crowd_release(WeirRenderer *renderer);
+
+// solids.c
+WeirStatus weir_solids_prepare(WeirRenderer *renderer, const WeirScene *scene,
+                               const WeirGpuParticles *particles);
+void weir_solids_release(WeirRenderer *renderer);
 
 // space.c
 void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device);

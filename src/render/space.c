@@ -237,7 +237,7 @@ void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
     if (drawing->water)
         weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
     WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
-    draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SHADOW);
+    draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SOLID_SHADOW);
     if (drawing->water) draw_into(renderer, drawing, WEIR_SPACE_SHADE, WEIR_EFFECT_SHADE);
     WGPURenderPassColorAttachment color = cleared(views[WEIR_SPACE_SAMPLES]);
     color.resolveTarget = views[WEIR_SPACE_COLOR];

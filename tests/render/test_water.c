@@ -148,6 +148,27 @@ static void water_is_blue_and_even(void **state)
     weir_sim_destroy(sim);
 }
 
+// Seen at an angle so flat that neighbouring pixels lie two or three spacings apart, the surface is one still.
+static void water_seen_flat_has_no_specks(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirImage image;
+    double worst = 0.0;
+    for (int k = 0; k < 4; k++) {
+        WeirView view = view_of(WEIR_FLUID_WATER);
+        view.camera_pitch = 0.05f + 0.01f * (float)k;
+        draw(*state, sim, &view, &image);
+        for (int n = 0; n < 250; n++) {
+            float x = 0.25f + 0.01f * (float)(n % 50), z = 0.3f + 0.1f * (float)(n / 50);
+            const uint8_t *pixel = pixel_at(&image, &view, x, 0.4f, z);
+            worst = fmax(worst, fmin(difference(pixel, pixel - 4), difference(pixel, pixel + 4)));
+        }
+        weir_image_destroy(&image);
+    }
+    if (!(worst < 24.0)) fail_msg("a pixel differs by %g from both beside it", worst);
+    weir_sim_destroy(sim);
+}
+
 // Its upper half as it is; its lower half through the water, darker and bluer, but there.
 static void a_body_is_seen_in_and_above_the_water(void **state)
 {
@@ -186,6 +207,63 @@ static void what_stands_before_the_water_hides_it(void **state)
     weir_sim_destroy(sim);
 }
 
+// The pool's body moved to `position` and turned about y by the angle whose half has this sine.
+static void draw_moved(WeirGpu *gpu, WeirSim *sim, const WeirView *view, const float position[3],
+                       float half_sine, WeirImage *image)
+{
+    WeirGpuParticles particles;
+    WeirState now;
+    assert_true(weir_upload(gpu, sim, &particles));
+    assert_int_equal(weir_sim_state(sim, &now), WEIR_OK);
+    WeirSolidState solids[2] = {now.solids[0], now.solids[1]};
+    memcpy(solids[1].position, position, 3 * sizeof *position);
+    solids[1].orientation[1] = half_sine;
+    solids[1].orientation[3] = sqrtf(1.0f - half_sine * half_sine);
+    wgpuBufferRelease(particles.solids);
+    assert_true(weir_upload_solids(&particles, solids, 2));
+    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_upload_release(&particles);
+}
+
+// A box of 0.28 x 0.32 x 0.28 m: its faces are plain, its edges where its state says, in both styles. As balls its
+// face had bumps, and was where its particles are.
+static void a_body_is_its_shape_at_its_pose(void **state)
+{
+    const float middle[3] = {0.5f, 0.75f, 0.5f}, half = 0.14f, eighth_turn = 0.38268343f;
+    WeirSim *sim = pool(true);
+    for (int style = 0; style < 2; style++) {
+        WeirView view = view_of(style ? WEIR_FLUID_WATER : WEIR_FLUID_PARTICLES);
+        view.camera_pitch = 0.0f;
+        WeirImage straight, turned, away;
+        draw_moved(*state, sim, &view, middle, 0.0f, &straight);
+        draw_moved(*state, sim, &view, middle, eighth_turn, &turned);
+        draw_moved(*state, sim, &view, (const float[3]){0.5f, 0.2f, 0.5f}, 0.0f, &away);
+        const uint8_t *face = pixel_at(&straight, &view, 0.5f, 0.75f, 0.64f);
+        assert_true(face[0] > face[2] + 40); // warm
+        for (int k = 0; k < 25; k++) {
+            float x = 0.5f + 0.8f * half * (float)(k % 5 - 2) / 2.0f, y = 0.75f + 0.05f * (float)(k / 5 - 2);
+            assert_true(difference(face, pixel_at(&straight, &view, x, y, 0.64f)) < 15);
+        }
+        // Two pixels within and beyond the edge.
+        const float pixel = 2.2f * 2.0f * 0.3093f / SIZE, y = 0.75f;
+        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half - 2 * pixel, y, 0.64f)) < 15);
+        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half + 2 * pixel, y, 0.64f)) > 90);
+        // Turned, its edge looks at the eye, and it is as wide as its diagonal.
+        const float wide = half * 1.41421356f;
+        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide + 3 * pixel, y, 0.5f),
+                               pixel_at(&away, &view, 0.5f - wide + 3 * pixel, y, 0.5f)) > 60);
+        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide - 2 * pixel, y, 0.5f),
+                               pixel_at(&away, &view, 0.5f - wide - 2 * pixel, y, 0.5f)) < 15);
+        const uint8_t *left = pixel_at(&turned, &view, 0.5f - half / 2, y, 0.5f),
+                      *right = pixel_at(&turned, &view, 0.5f + half / 2, y, 0.5f);
+        assert_true(difference(left, right) > 15); // each face has its light
+        weir_image_destroy(&straight);
+        weir_image_destroy(&turned);
+        weir_image_destroy(&away);
+    }
+    weir_sim_destroy(sim);
+}
+
 static void no_fluid_no_water(void **state)
 {
     WeirSim *sim = pool(false);
@@ -220,6 +298,96 @@ static void a_lonely_particle_is_a_drop(void **state)
     assert_true(middle[0] > 100 && middle[2] > 120);
     weir_image_destroy(&drop);
     weir_image_destroy(&plain);
+    weir_sim_destroy(sim);
+}
+
+// Columns and rows that a drop covers which flies to the right at `share` of the speed of sound.
+static void size_of_drop(WeirGpu *gpu, WeirSim *sim, float share, uint32_t size[2])
+{
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_distance = 0.6f;
+    view.camera_pitch = 0.0f;
+    const WeirConstants *constants = weir_sim_constants(sim);
+    WeirImage images[2];
+    for (uint32_t shown = 0; shown < 2; shown++) {
+        int32_t coordinate[1][4] = {{0, 0, 0, shown ? WEIR_GROUP_FLUID : WEIR_GROUP_EMPTY}};
+        float motion[1][4] = {{share * constants->sound_speed, 0, 0, 0}};
+        for (int k = 0; k < 3; k++)
+            coordinate[0][k] =
+                (int32_t)lroundf((view.camera_target[k] - constants->origin[k]) / constants->quantum);
+        WeirGpuParticles particles;
+        assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
+        draw_particles(gpu, sim, &particles, &view, all, &images[shown]);
+        weir_upload_release(&particles);
+    }
+    bool columns[SIZE] = {false}, rows[SIZE] = {false};
+    for (uint32_t k = 0; k < SIZE * SIZE; k++) {
+        bool covered = difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 60;
+        columns[k % SIZE] |= covered;
+        rows[k / SIZE] |= covered;
+    }
+    size[0] = size[1] = 0;
+    for (uint32_t k = 0; k < SIZE; k++) {
+        size[0] += columns[k];
+        size[1] += rows[k];
+    }
+    weir_image_destroy(&images[0]);
+    weir_image_destroy(&images[1]);
+}
+
+static void a_fast_drop_is_a_streak(void **state)
+{
+    WeirSim *sim = pool(false);
+    uint32_t slow[2], fast[2];
+    size_of_drop(*state, sim, 0.0f, slow);
+    size_of_drop(*state, sim, 0.1f, fast);
+    assert_true(slow[0] > 8 && abs((int)slow[0] - (int)slow[1]) <= 1);
+    if (!(fast[0] > 2 * fast[1] && fast[0] > slow[0] + 3 && fast[1] < slow[1]))
+        fail_msg("%u x %u pixels, at rest %u x %u", fast[0], fast[1], slow[0], slow[1]);
+    weir_sim_destroy(sim);
+}
+
+// Mean red of a standing sheet, one particle thick, that moves at `share` of the speed of sound: as one, or every other
+// particle the other way.
+static double redness_of_sheet(WeirGpu *gpu, WeirSim *sim, float share, bool against)
+{
+    enum { SIDE = 16 };
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_pitch = 0.0f;
+    const WeirConstants *constants = weir_sim_constants(sim);
+    int32_t coordinate[SIDE * SIDE][4];
+    float motion[SIDE * SIDE][4] = {{0}};
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const float place[3] = {0.18f + 0.04f * (float)(i % SIDE), 0.1f + 0.04f * (float)(i / SIDE), 0.5f};
+        for (int k = 0; k < 3; k++)
+            coordinate[i][k] = (int32_t)lroundf((place[k] - constants->origin[k]) / constants->quantum);
+        coordinate[i][3] = WEIR_GROUP_FLUID;
+        motion[i][1] = against && (i + i / SIDE) % 2 ? -share : share;
+        motion[i][1] *= constants->sound_speed;
+    }
+    WeirImage image;
+    WeirGpuParticles particles;
+    assert_true(weir_upload_arrays(gpu, coordinate, motion, SIDE * SIDE, &particles));
+    draw_particles(gpu, sim, &particles, &view, all, &image);
+    weir_upload_release(&particles);
+    const uint8_t *middle = pixel_at(&image, &view, 0.5f, 0.4f, 0.5f);
+    double sum = 0.0;
+    for (int y = -20; y < 20; y++) {
+        for (int x = -20; x < 20; x++) sum += middle[4 * (y * SIZE + x)];
+    }
+    weir_image_destroy(&image);
+    return sum / 1600.0;
+}
+
+// Foam is where torn water moves against itself; speed alone makes none.
+static void a_sheet_that_moves_as_one_is_clear(void **state)
+{
+    WeirSim *sim = pool(false);
+    double still = redness_of_sheet(*state, sim, 0.0f, false),
+           one = redness_of_sheet(*state, sim, 0.06f, false),
+           torn = redness_of_sheet(*state, sim, 0.06f, true);
+    if (!(fabs(one - still) < 12.0 && torn > one + 25.0))
+        fail_msg("red at rest %g, moving %g, against itself %g", still, one, torn);
     weir_sim_destroy(sim);
 }
 
@@ -273,10 +441,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_is_blue_and_even),
+        cmocka_unit_test(water_seen_flat_has_no_specks),
         cmocka_unit_test(a_body_is_seen_in_and_above_the_water),
         cmocka_unit_test(what_stands_before_the_water_hides_it),
+        cmocka_unit_test(a_body_is_its_shape_at_its_pose),
         cmocka_unit_test(no_fluid_no_water),
         cmocka_unit_test(a_lonely_particle_is_a_drop),
+        cmocka_unit_test(a_fast_drop_is_a_streak),
+        cmocka_unit_test(a_sheet_that_moves_as_one_is_clear),
         cmocka_unit_test(styles_and_sizes_change),
         cmocka_unit_test(unknown_styles_are_refused),
     };

@@ -25,6 +25,24 @@ bool weir_upload_arrays(WeirGpu *gpu, int32_t (*coordinate)[4], float (*motion)[
     return particles->coordinate && particles->motion;
 }
 
+bool weir_upload_solids(WeirGpuParticles *particles, const WeirSolidState *states, uint32_t count)
+{
+    particles->solids = create_buffer(particles->gpu, states, count * sizeof *states);
+    particles->solid_count = count;
+    return particles->solids;
+}
+
+static uint32_t solids_in(const WeirState *state)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; state->solids && i < state->count; i++) {
+        uint32_t group = state->group[i];
+        if (weir_group_is_solid(group) && group - WEIR_GROUP_SOLID >= count)
+            count = group - WEIR_GROUP_SOLID + 1;
+    }
+    return count;
+}
+
 bool weir_upload(WeirGpu *gpu, WeirSim *cpu, WeirGpuParticles *particles)
 {
     WeirState state;
@@ -43,6 +61,8 @@ bool weir_upload(WeirGpu *gpu, WeirSim *cpu, WeirGpuParticles *particles)
         motion[i][3] = state.density[i] - weir_sim_parameters(cpu)->rest_density;
     }
     good = good && weir_upload_arrays(gpu, coordinate, motion, state.count, particles);
+    uint32_t solids = good ? solids_in(&state) : 0;
+    if (solids > 0) good = weir_upload_solids(particles, state.solids, solids);
     free(coordinate);
     free(motion);
     return good;
@@ -52,5 +72,6 @@ void weir_upload_release(WeirGpuParticles *particles)
 {
     if (particles->coordinate) wgpuBufferRelease(particles->coordinate);
     if (particles->motion) wgpuBufferRelease(particles->motion);
-    particles->coordinate = particles->motion = NULL;
+    if (particles->solids) wgpuBufferRelease(particles->solids);
+    particles->coordinate = particles->motion = particles->solids = NULL;
 }

@@ -138,11 +138,24 @@ fn room(direction: vec3f) -> vec3f {
     return light;
 }
 
+// Where a ray that is before the scene at `before` and behind it at `after` meets it: halved, or steps would show.
+fn meeting(point: vec3f, ray: vec3f, before: f32, after: f32) -> f32 {
+    var low = before;
+    var high = after;
+    for (var k = 0; k < 4; k++) {
+        let half = 0.5 * (low + high);
+        let place = point + ray * half;
+        if place.z > scene_ahead(nearest_pixel(view_to_pixel(place))) { high = half; } else { low = half; }
+    }
+    return high;
+}
+
 // The scene that is seen in the water as in a mirror, with the share of the light that comes from it: steps along the
 // ray until it is behind something.
 fn mirrored_scene(point: vec3f, mirrored: vec3f) -> vec4f {
     let reach = length(frame.domain_max.xyz - frame.domain_min.xyz);
     var way = 1.5 * frame.spacing;
+    var before = 0.0;
     for (var k = 0; k < mirror_steps; k++) {
         let place = point + mirrored * way;
         if place.z < frame.near { break; }
@@ -151,9 +164,11 @@ fn mirrored_scene(point: vec3f, mirrored: vec3f) -> vec4f {
         let behind = place.z - scene_ahead(vec2u(pixel));
         let step = max(0.12 * way, 1.2 * frame.spacing);
         if behind > 0.0 && behind < 2.0 * step + 2.0 * frame.spacing {
-            let edge = min(pixel, frame.size - pixel) / (0.08 * frame.size);
-            return vec4f(scene_between(pixel), clamp(min(edge.x, edge.y), 0.0, 1.0));
+            let found = view_to_pixel(point + mirrored * meeting(point, mirrored, before, way));
+            let edge = min(found, frame.size - found) / (0.08 * frame.size);
+            return vec4f(scene_between(found), clamp(min(edge.x, edge.y), 0.0, 1.0));
         }
+        before = way;
         way += step;
         if way > reach { break; }
     }
@@ -187,9 +202,11 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     var light = mix(through.rgb * left, glow, haze);
     let foam = 1.0 - exp(-0.75 * thickness.y / frame.spacing);
     let white = vec3f(0.66, 0.84, 0.94) * (0.60 + 0.50 * max(dot(normal, sun), 0.0)) * mix(0.7, 1.0, lit);
-    light = mix(light, white, 0.75 * foam);
+    light = mix(light, white, 0.70 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
-    let mirrored = reflect(direction, normal);
+    var mirrored = reflect(direction, normal);
+    // What a lying surface mirrors downwards meets the water once more and leaves it upwards: no dark specks at flat angles.
+    mirrored.y = mix(mirrored.y, abs(mirrored.y), smoothstep(0.4, 0.8, normal.y));
     var image = room(mirrored);
     if depth > 0.0 && fresnel > least_mirrored {
         let seen = mirrored_scene(middle, to_eye(mirrored));

@@ -1,11 +1,12 @@
 // Shared by the passes that count particles: the grid, two spacings wide. A domain with more cells than there are is
 // folded onto them.
 
-@group(2) @binding(0) var<storage, read_write> cells: array<atomic<u32>>;
-@group(2) @binding(1) var<storage, read_write> crowd: array<f32>; // per particle
+@group(2) @binding(0) var<storage, read_write> cells: array<atomic<i32>>; // 4 each: particles, their motion
+@group(2) @binding(1) var<storage, read_write> crowd: array<vec2f>; // per particle: how many others, how much else they move
 
 const row_length = 65535u * 256u; // invocations of one row of workgroups; crowd.c
 const cell_unit = 256.0;          // of a particle, in a cell
+const motion_unit = 16384.0;      // of a particle at the speed of sound
 const particles_per_cell = 8.0;   // where the fluid is
 
 // Of a particle, in cells.
@@ -20,7 +21,7 @@ fn corner_offset(corner: u32) -> vec3u {
 fn cell_index(place: vec3f, corner: u32) -> u32 {
     let size = vec3u(ceil((frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing))) + 3u;
     let cell = vec3u(place) + corner_offset(corner);
-    return (cell.x + size.x * (cell.y + size.y * cell.z)) % arrayLength(&cells);
+    return 4u * ((cell.x + size.x * (cell.y + size.y * cell.z)) % (arrayLength(&cells) / 4u));
 }
 
 // Share of a particle that a cell's corner gets: linear along each axis.

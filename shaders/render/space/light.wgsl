@@ -5,14 +5,11 @@
 
 const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
 
-// Share of the light that reaches a point: the mean over 6 x 6 texels; over as many that lie farther apart where a pale
-// floor would show that what casts the shadow is made of spheres.
-fn lit_share(point: vec3f) -> f32 {
+// Share of the light that reaches a point: the mean over 6 x 6 texels, `stride` apart.
+fn lit_share_within(point: vec3f, stride: f32) -> f32 {
     var light = to_light(point);
     light.z = min(light.z, 1.0); // beyond the map's depth lies nothing that casts
     let texel = light_texel(light);
-    let spacing = 0.5 * shadow_size * frame.spacing * length(frame.light_rows[0].xyz);
-    let stride = select(1.0, max(0.35 * spacing, 1.0), frame.water != 0u);
     let corner = select(floor(texel - 2.5), texel - 2.5 * stride, stride > 1.0);
     var lit = 0.0;
     var weight = 0.0;
@@ -32,7 +29,13 @@ fn lit_share(point: vec3f) -> f32 {
     return lit / max(weight, 1e-6);
 }
 
-// The same from four texels.
+// The same, softer on the pale floor under water, where texels would show.
+fn lit_share(point: vec3f) -> f32 {
+    let spacing = 0.5 * shadow_size * frame.spacing * length(frame.light_rows[0].xyz);
+    return lit_share_within(point, select(1.0, max(0.35 * spacing, 1.0), frame.water != 0u));
+}
+
+// From four texels.
 fn lit_roughly(point: vec3f) -> f32 {
     let light = to_light(point);
     let texel = clamp(light_texel(light), vec2f(2.0), vec2f(shadow_size - 2.0));

@@ -2,26 +2,26 @@
 // "Screen space fluid rendering with curvature flow", I3D 2009 (depth, thickness, smoothing, shading) with the narrow
 // range filter's view of edges by Truong and Yuksel, I3D 2018.
 
-@group(1) @binding(3) var<storage, read> crowd: array<f32>; // crowd_gather
+@group(1) @binding(3) var<storage, read> crowd: array<vec2f>; // crowd_gather
 
 // How much of a particle is a drop of its own, flying free: 0 to 1.
 fn drop_share(particle: u32) -> f32 {
-    return 1.0 - smoothstep(0.10, 0.34, crowd[particle]);
+    return 1.0 - smoothstep(0.10, 0.34, crowd[particle].x);
 }
 
 // Torn water is drawn thinner, or it would look like balls.
 fn body_share(particle: u32) -> f32 {
-    return mix(0.55, 1.0, smoothstep(0.12, 0.45, crowd[particle]));
+    return mix(0.55, 1.0, smoothstep(0.12, 0.45, crowd[particle].x));
 }
 
-// How much of it is white with air: where the water is torn, and fast.
-fn foam_share(speed: f32, particle: u32) -> f32 {
-    let torn = 1.0 - smoothstep(0.16, 0.42, crowd[particle]);
-    return torn * smoothstep(0.012, 0.05, speed / frame.sound_speed);
+// How much of it is white with air: where water that is torn moves against itself. A sheet that moves as one stays clear.
+fn foam_share(particle: u32) -> f32 {
+    let torn = 1.0 - smoothstep(0.25, 0.60, crowd[particle].x);
+    return torn * smoothstep(0.010, 0.040, crowd[particle].y);
 }
 
 const surface_radius = 1.0;   // of the spheres whose union is smoothed, spacings
-const drop_radius = 0.30;     // of drops that fly free, spacings
+const drop_radius = 0.28;     // of drops that fly free, spacings
 const thickness_radius = 1.7; // of the blobs that are summed up, spacings
 
 // Absorption of light on its way through the water: red goes first. Per metre in a domain of one metre; scenes of all

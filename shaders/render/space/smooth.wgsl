@@ -54,7 +54,7 @@ fn value_of(fit: Fit) -> f32 {
 // pixels a surface seen at a flat angle jumps by more than a spacing from one pixel to the next.
 fn jump_limit(depth: f32) -> f32 {
     let size = max(frame.spacing, 4.0 * frame.pixel_size * frame.near / depth);
-    return 2.6 * size * depth * depth / frame.near;
+    return 5.0 * size * depth * depth / frame.near;
 }
 
 fn belongs(jump: f32, limit: f32) -> f32 {

@@ -8,6 +8,7 @@ struct Sphere {
     @location(1) @interpolate(flat) center: vec4f,    // view space; radius
     @location(2) @interpolate(flat) color: vec4f,     // linear; how glossy
     @location(3) @interpolate(flat) light: f32,       // share of the light that arrives
+    @location(4) @interpolate(flat) streak: vec4f,
 }
 
 // Light that arrives at a particle through the fluid between it and the light.
@@ -39,13 +40,26 @@ fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     if center.z - size < frame.near { return sphere; }
     let pixel = frame.pixel_size * length(center);
     let radius = max(size, 0.55 * pixel);
-    sphere.ray = sphere_corner(center, radius, pixel, vertex);
+    sphere.streak = vec4f(1.0, 0.0, 0.0, 1.0);
+    if drop { sphere.streak = streak(particle); }
+    let across = streak_radius(radius, sphere.streak);
+    sphere.ray = sphere_corner(center, across * sphere.streak.w, pixel, vertex);
     sphere.place = project(sphere.ray);
-    sphere.center = vec4f(center, radius);
+    sphere.center = vec4f(center, across);
     sphere.color = vec4f(to_linear(particle_color(particle, kind)), select(0.25, 1.0, kind == FLUID));
-    if drop { sphere.color = vec4f(0.62, 0.74, 0.82, 1.6); }
+    if drop { sphere.color.a = of_drop; }
     sphere.light = arriving_light(point, size);
     return sphere;
+}
+
+const of_drop = 2.0; // its gloss
+
+// Linear light of a drop of water: a lens that shows the light room above at its lower side, and mirrors it at its rim.
+fn drop_color(normal: vec3f, view: vec3f, light: f32) -> vec3f {
+    let lens = mix(vec3f(0.17, 0.27, 0.33), vec3f(0.60, 0.74, 0.82), smoothstep(-0.7, 0.8, -normal.y));
+    let shine = pow(max(dot(normal, normalize(sun + view)), 0.0), 60.0);
+    let fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(normal, view), 0.0, 1.0), 5.0);
+    return lens * mix(0.6, 1.0, light) + fresnel * surroundings(reflect(-view, normal)) + 1.6 * shine * light;
 }
 
 struct Seen {
@@ -53,32 +67,24 @@ struct Seen {
     @builtin(frag_depth) depth: f32,
 }
 
-// Linear light of a surface. `view` points to the eye.
-fn shade(color: vec3f, gloss: f32, normal: vec3f, view: vec3f, light: f32) -> vec3f {
-    let facing = dot(normal, sun);
-    let wrapped = clamp(0.62 * facing + 0.38, 0.0, 1.0);
-    let ambient = mix(vec3f(0.16, 0.20, 0.28), vec3f(0.62, 0.70, 0.80), 0.5 * normal.y + 0.5);
-    var seen = color * (0.62 * ambient * mix(0.55, 1.0, light) + vec3f(1.02, 0.98, 0.92) * (wrapped * light));
-    let halfway = normalize(sun + view);
-    let shine = pow(max(dot(normal, halfway), 0.0), 70.0);
-    let fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(normal, view), 0.0, 1.0), 5.0);
-    seen += gloss * (0.55 * shine * light + 0.35 * fresnel * surroundings(reflect(-view, normal)) * mix(0.4, 1.0, light));
-    return seen;
-}
-
 @fragment
 fn spheres_fragment(sphere: Sphere) -> Seen {
     let center = sphere.center.xyz;
     let radius = sphere.center.w;
     let ray = normalize(sphere.ray);
-    let hit = hit_sphere(ray, center, radius);
+    let hit = hit_streak(ray, center, radius, sphere.streak);
     let pixel = frame.pixel_size * hit.along;
     let coverage = clamp((radius - hit.miss) / pixel + 0.5, 0.0, 1.0);
     if coverage <= 0.0 { discard; }
     let place = ray * (hit.along - hit.half);
-    let normal = normalize(to_world(place - center));
+    let normal = normalize(to_world(squeezed(squeezed(place - center, sphere.streak), sphere.streak)));
     var seen: Seen;
-    let color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), sphere.light);
+    var color: vec3f;
+    if sphere.color.a == of_drop {
+        color = drop_color(normal, -to_world(ray), sphere.light);
+    } else {
+        color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), sphere.light);
+    }
     seen.color = vec4f(to_srgb(color), coverage);
     seen.depth = frame.near / place.z;
     return seen;

@@ -6,6 +6,7 @@ struct Ball {
     @builtin(position) place: vec4f,
     @location(0) ray: vec3f,                       // view space, through the fragment
     @location(1) @interpolate(flat) center: vec4f, // view space; radius
+    @location(2) @interpolate(flat) streak: vec4f,
 }
 
 @vertex
@@ -17,10 +18,12 @@ fn surface_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
     let drop = drop_share(particle);
     if drop > 0.98 { return ball; } // spheres draws it
     let radius = max(surface_radius * frame.spacing * body_share(particle) * (1.0 - 0.5 * drop), 1.2 * frame.pixel_size * center.z);
-    if center.z - radius < frame.near { return ball; }
-    ball.ray = sphere_corner(center, radius, 0.0, vertex);
+    if center.z - 2.0 * radius < frame.near { return ball; }
+    ball.streak = streak(particle);
+    let across = streak_radius(radius, ball.streak);
+    ball.ray = sphere_corner(center, across * ball.streak.w, 0.0, vertex);
     ball.place = project(ball.ray);
-    ball.center = vec4f(center, radius);
+    ball.center = vec4f(center, across);
     return ball;
 }
 
@@ -32,7 +35,7 @@ struct Found {
 @fragment
 fn surface_fragment(ball: Ball) -> Found {
     let ray = normalize(ball.ray);
-    let hit = hit_sphere(ray, ball.center.xyz, ball.center.w);
+    let hit = hit_streak(ray, ball.center.xyz, ball.center.w, ball.streak);
     if hit.miss >= ball.center.w { discard; }
     let span = domain_span(to_world(ray));
     var first = hit.along - hit.half;

@@ -23,7 +23,7 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     blob.place = project(center + vec3f(corner * radius, 0.0));
     blob.offset = corner;
     let peak = blob_peak(radius, radius);
-    blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle_speed(particle), particle));
+    blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle));
     blob.ahead = center.z;
     return blob;
 }
@@ -33,5 +33,7 @@ fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
     let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
     let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
     let before = clamp((behind - blob.ahead) / frame.spacing + 0.5, 0.0, 1.0);
-    return blob.peak * blob_share(blob.offset) * before;
+    // Foam keeps to its particle, narrower than the water: else it looks like wool.
+    let share = blob_share(blob.offset);
+    return blob.peak * vec4f(vec3f(share), 1.8 * share * share) * before;
 }

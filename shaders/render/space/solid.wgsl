@@ -1,0 +1,32 @@
+// Shared by the effects that draw walls and bodies as shapes: their corners, where the solver has them now.
+
+// WeirCorner (src/render/shape.h), in two vectors: place from the reference point, solid; normal, tone.
+@group(1) @binding(0) var<storage, read> corners: array<vec4f>;
+
+// WeirSolidState (src/core/world.h).
+struct SolidState {
+    position: vec4f,
+    orientation: vec4f,
+    unused: array<vec4f, 6>,
+}
+@group(1) @binding(1) var<storage, read> solid_state: array<SolidState>;
+
+struct Corner {
+    point: vec3f, // m
+    normal: vec3f,
+    solid: u32,
+    tone: f32,
+}
+
+fn turned(q: vec4f, v: vec3f) -> vec3f {
+    let once = cross(q.xyz, v);
+    return v + 2.0 * (q.w * once + cross(q.xyz, once));
+}
+
+fn corner_now(index: u32) -> Corner {
+    let place = corners[2u * index];
+    let look = corners[2u * index + 1u];
+    let solid = bitcast<u32>(place.w);
+    let q = solid_state[solid].orientation;
+    return Corner(solid_state[solid].position.xyz + turned(q, place.xyz), turned(q, look.xyz), solid, look.w);
+}
