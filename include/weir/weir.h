@@ -245,7 +245,8 @@ typedef struct WeirDiagnostics {
     uint32_t lost_particles;   // outside the domain or not finite
     uint64_t state_hash; // of positions and velocities by id; equal bits, equal hash; 0 if not asked for
 } WeirDiagnostics;
-// What costs more, by bit. On a GPU both need a copy of all particles; the rest is summed there and costs little.
+// What costs more, by bit. On a GPU both need a copy of all particles, which is summed in double; without them the device sums in
+// float, good to 2e-6 of a sum's terms, and that costs little.
 typedef enum WeirDiagnose {
     WEIR_DIAGNOSE_NEIGHBORS = 1, // mean_neighbors: a neighbour search on the host
     WEIR_DIAGNOSE_HASH = 2,      // state_hash

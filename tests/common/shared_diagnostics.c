@@ -1,5 +1,6 @@
 // Diagnostics against values computed by hand, and against sums over the state that may be read.
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -140,7 +141,8 @@ static void check_sums(WeirSim *sim, const double lowest[3], const double gravit
 {
     double momentum_scale;
     WeirDiagnostics found = weir_test_diagnose(sim, 0), again = weir_test_diagnose(sim, 0);
-    assert_memory_equal(&found, &again, sizeof found);
+    assert_memory_equal(&found, &again,
+                        offsetof(WeirDiagnostics, lost_particles)); // bits of the same order of sums
     WeirDiagnostics wanted = sum_up(sim, lowest, gravity, &momentum_scale);
     assert_true(wanted.kinetic_energy > 0 && wanted.potential_energy > 0 && wanted.density_error_mean > 0);
     CHECK_NEAR(found.kinetic_energy, wanted.kinetic_energy, 2e-6 * wanted.kinetic_energy);

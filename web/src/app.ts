@@ -1,5 +1,5 @@
 // The page: one scene, one engine that runs it, and the controls around them.
-import type { Engine, FaultKind } from './engine.ts';
+import type { Engine, EngineStats, FaultKind } from './engine.ts';
 import { GpuEngine } from './engine_gpu.ts';
 import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
@@ -26,6 +26,7 @@ export type AppOptions = {
 };
 
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
+const adviceMs = 3000;
 const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
 // What the C solver, on one core, still moves at a rate that one likes to watch.
 const cpuParticles = { 2: 5000, 3: 4000 } as const;
@@ -73,6 +74,7 @@ export class App implements PanelHost {
   #interval = 1000 / 60; // ms between animation frames, averaged
   #plotted: unknown = null;
   #advice = ''; // as last seen
+  #fastSince = 0; // the fluid is too fast or too compressed, ms
   #footer = { size: '', height: 0 }; // of the window, of the footer
 
   constructor(weir: Weir, module: WebAssembly.Module, scenes: SceneEntry[], options: AppOptions) {
@@ -344,8 +346,11 @@ export class App implements PanelHost {
   }
 
   // What the simulation itself warns of while it runs: shown once per run, for a while; then the status line keeps it.
-  #advise(warning: string): void {
-    if (warning === this.#advice) return;
+  // The status line marks a splash that is too fast for the speed of sound while it lasts; words come if it goes on.
+  #advise(now: number, { warning, clock }: EngineStats): void {
+    const isFast = clock !== null && (clock.machNumber > 0.1 || clock.maxDensityError > 0.03);
+    if (!isFast) this.#fastSince = now;
+    if (warning === this.#advice || now - this.#fastSince < adviceMs) return;
     this.#advice = warning;
     if (warning && warning !== this.store.derived.warning) this.notes.toast('warning', warning);
   }
@@ -584,7 +589,7 @@ export class App implements PanelHost {
     if (diagnostics && diagnostics !== this.#plotted && !this.paused) this.plot.add(now, diagnostics);
     this.#plotted = diagnostics;
     this.probePlots.update(engine.stats.probes, now);
-    this.#advise(engine.stats.warning);
+    if (!this.paused) this.#advise(now, engine.stats);
     this.status.update(now, engine, this.paused);
     this.#keepRealTime(now, engine);
     if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();

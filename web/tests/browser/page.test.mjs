@@ -236,6 +236,18 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    // A splash of a moment is no reason for words; fluid that stays too fast for its speed of sound is.
+    test('says that the fluid is too fast for its speed of sound if it stays so', async () => {
+      const tab = await open('backend=cpu&scene=lid_cavity&particles=400');
+      await tab.frames(2);
+      const told = () => /Raise expected_speed above/.test(document.getElementById('notes').innerText);
+      await tab.evaluate(() => window.weir.set({ expected_speed: 0.3 }));
+      await tab.until('a Mach number', () => (window.weir.engine.stats.clock?.machNumber ?? 0) > 0.1 && window.weir.engine.stats.warning);
+      assert.equal(await tab.evaluate(told), false);
+      await tab.until('words', told);
+      await tab.close();
+    });
+
     for (const backend of ['gpu', 'cpu']) {
       test(`3D: alive, turned by a drag, stirred on the fluid (${backend})`, async () => {
         const size = { width: 640, height: 420, deviceScaleFactor: 1 };
