@@ -1,5 +1,6 @@
 // `wcsph` as a whole: places far from the origin, periodic axes, the clock, blow-ups and warnings.
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -138,8 +139,7 @@ static void a_blow_up_is_found_and_the_last_good_state_kept(const WeirBackend *b
     float *position = weir_test_read(sim, WEIR_FIELD_POSITION),
           *velocity = weir_test_read(sim, WEIR_FIELD_VELOCITY);
     WeirDiagnostics last = weir_test_diagnose(sim, 0), same = weir_test_diagnose(sim, WEIR_DIAGNOSE_HASH);
-    same.state_hash = 0;
-    assert_memory_equal(&last, &same, sizeof last);
+    assert_memory_equal(&last, &same, offsetof(WeirDiagnostics, lost_particles));
     assert_true(isfinite(last.kinetic_energy));
     // It may be one in the middle of a step, half of which the fastest good particle has gone from the walls' seal.
     double limit = 4 * weir_sim_clock(sim).sound_speed, reach = 0.02 + limit * 2.5 * stable;
