@@ -1,7 +1,7 @@
 // Time and time step (weir_wcsph_time_step, next_step), by one thread. Times are counts of 2^-42 s in two words.
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
-// Sizes of the dispatches of the next sort.
-@group(0) @binding(BINDING_sort_groups) var<storage, read_write> sort_groups: array<vec4u, 6>; // as they are, as they are where it sorts
+// Sizes of the dispatches of the next sort, then those that they have if there is one.
+@group(0) @binding(BINDING_sort_groups) var<storage, read_write> sort_groups: array<vec4u, 2u * SORT_SIZES>;
 
 const TICKS_PER_ROOT = 2097152.0; // 2^21: ticks of 2^-42 s are reached in two exact factors
 
@@ -71,8 +71,8 @@ fn choose_step() {
     }
     let chance = control.steps % SORT_INTERVAL == 0u && control.stale == 1u;
     control.sorting = select(0u, 1u, control.next_dt > 0.0 && (chance || any_layer_due()));
-    for (var k = 0u; k < 3u; k++) {
-        sort_groups[k] = control.sorting * sort_groups[3u + k];
+    for (var k = 0u; k < SORT_SIZES; k++) {
+        sort_groups[k] = control.sorting * sort_groups[SORT_SIZES + k];
     }
 }
 

@@ -176,12 +176,6 @@ struct Drain {
 @group(0) @binding(BINDING_emitters) var<uniform> emitters: array<Emitter, EMITTERS>;
 @group(0) @binding(BINDING_drains) var<uniform> drains: array<Drain, DRAINS>;
 
-// v turned by the unit quaternion q.
-fn rotate(q: vec4f, v: vec3f) -> vec3f {
-    let once = cross(q.xyz, v);
-    return v + 2.0 * (q.w * once + cross(q.xyz, once));
-}
-
 // Of control: nothing may run over the last good state.
 fn is_well(bad_step: u32, restored: u32) -> bool {
     return bad_step == 0xffffffffu || restored == 1u;

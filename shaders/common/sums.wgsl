@@ -45,8 +45,14 @@ fn sums_of(place: vec3f, velocity: vec3f, error: f32) -> FluidSums {
                      select(0.0, 1.0, is_lost(place, velocity)));
 }
 
-// All threads of a workgroup call it.
-fn leave_sums(sums: FluidSums, local: u32, group: u32) {
+// Of a workgroup's share; all its threads call it. A pass brings own_sums(), those of one particle.
+fn leave_sums(workgroup: vec3u, workgroups: vec3u, local: u32) {
+    let group = workgroup_index(workgroup, workgroups);
+    let share = particle_share(group, workgroups);
+    var sums = FluidSums();
+    for (var i = share.x + local; i < share.y; i += WORKGROUP_SIZE) {
+        sums = joined(sums, own_sums(i));
+    }
     partial[local] = sums;
     for (var half = WORKGROUP_SIZE / 2u; half > 0u; half /= 2u) {
         workgroupBarrier();

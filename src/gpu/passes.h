@@ -90,8 +90,8 @@ void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePass
 void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,
                                  WGPUBuffer sizes, uint64_t offset);
 
-// The whole WGSL of a pass, 0-terminated, from malloc: constants (`threads` of a workgroup), structs, the method's parts, `parts` (NULL for none),
-// then `source`. NULL if memory runs out.
+// The whole WGSL of a pass, 0-terminated, from malloc: constants (`threads` of a workgroup), structs, the method's parts, `parts`
+// (NULL for none), then `source`. NULL if memory runs out.
 char *weir_pass_source(const WeirMethodInfo *method, uint32_t threads, const char *settings,
                        const char *const *parts, const char *source);
 // Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if

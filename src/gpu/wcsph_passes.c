@@ -11,6 +11,7 @@ SHADER(common_index)
 SHADER(common_plane)
 SHADER(common_space)
 SHADER(common_state)
+SHADER(common_rotation)
 SHADER(common_cells)
 SHADER(common_smoothing)
 SHADER(common_liquid)
@@ -173,10 +174,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
 };
 
 #define PARTS(dimension)                                                                                     \
-    {weir_wgsl_common_uniforms,    weir_wgsl_common_index,                                                   \
-     weir_wgsl_common_##dimension, weir_wgsl_common_state,                                                   \
-     weir_wgsl_common_cells,       weir_wgsl_common_smoothing,                                               \
-     weir_wgsl_common_liquid,      NULL}
+    {weir_wgsl_common_uniforms,  weir_wgsl_common_index,    weir_wgsl_common_##dimension,                    \
+     weir_wgsl_common_state,     weir_wgsl_common_rotation, weir_wgsl_common_cells,                          \
+     weir_wgsl_common_smoothing, weir_wgsl_common_liquid,   NULL}
 static const char *const plane_parts[] = PARTS(plane), *const space_parts[] = PARTS(space);
 
 const WeirMethodInfo *weir_gpu_wcsph_method(uint32_t dimension)
@@ -264,6 +264,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
+    NUMBER("SORT_SIZES", (uint32_t)WEIR_SORT_SIZES);
     NUMBER("EMISSION_INTERVAL", traits->emission_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
            traits->most_allowance);

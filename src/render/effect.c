@@ -17,7 +17,7 @@ extern const char weir_wgsl_render_space_occlusion[], weir_wgsl_render_space_com
 extern const char weir_wgsl_render_space_sphere[], weir_wgsl_render_space_edge[];
 extern const char weir_wgsl_render_space_light[], weir_wgsl_render_space_gloss[];
 extern const char weir_wgsl_render_space_solid[], weir_wgsl_render_space_solids[];
-extern const char weir_wgsl_render_space_solid_shadow[];
+extern const char weir_wgsl_render_space_solid_shadow[], weir_wgsl_common_rotation[];
 extern const char weir_wgsl_render_space_hollows[], weir_wgsl_render_space_liquid[];
 extern const char weir_wgsl_render_space_shade[], weir_wgsl_render_space_surface[];
 extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
@@ -55,6 +55,7 @@ typedef struct Effect {
 #define SPHERE                   weir_wgsl_render_space_sphere
 #define LIGHT                    weir_wgsl_render_space_light
 #define GLOSS                    weir_wgsl_render_space_gloss
+#define ROTATION                 weir_wgsl_common_rotation
 #define SOLID                    weir_wgsl_render_space_solid
 #define HOLLOWS                  weir_wgsl_render_space_hollows
 #define LIQUID                   weir_wgsl_render_space_liquid
@@ -68,15 +69,15 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .particles = true,
                                   .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SOLID_SHADOW] =
-        EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW, .shared = {SOLID},
+        EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW, .shared = {ROTATION, SOLID},
                .triangles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LIGHT, LIQUID}, .blends = true, .tests_depth = true, .writes_depth = true),
-    [WEIR_EFFECT_SOLIDS] =
-        EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LIGHT, GLOSS, SOLID}, .triangles = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLIDS] = EFFECT("solids", space_solids, .target = TARGET_SCENE,
+                                  .textures = WEIR_TEXTURES_LIGHT, .shared = {LIGHT, GLOSS, ROTATION, SOLID},
+                                  .triangles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,

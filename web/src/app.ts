@@ -1,5 +1,5 @@
 // The page: one scene, one engine that runs it, and the controls around them.
-import type { Engine, EngineStats, FaultKind } from './engine.ts';
+import { isCompressed, isFast, type Engine, type EngineStats, type FaultKind } from './engine.ts';
 import { GpuEngine } from './engine_gpu.ts';
 import { formatCount, formatNumber } from './format.ts';
 import { onKeys } from './keys.ts';
@@ -348,8 +348,7 @@ export class App implements PanelHost {
   // What the simulation itself warns of while it runs: shown once per run, for a while; then the status line keeps it.
   // The status line marks a splash that is too fast for the speed of sound while it lasts; words come if it goes on.
   #advise(now: number, { warning, clock }: EngineStats): void {
-    const isFast = clock !== null && (clock.machNumber > 0.1 || clock.maxDensityError > 0.03);
-    if (!isFast) this.#fastSince = now;
+    if (!clock || !(isFast(clock) || isCompressed(clock))) this.#fastSince = now;
     if (warning === this.#advice || now - this.#fastSince < adviceMs) return;
     this.#advice = warning;
     if (warning && warning !== this.store.derived.warning) this.notes.toast('warning', warning);

@@ -11,8 +11,8 @@ export function tellHost(message: FromPage): void {
 export function obeyHost(app: Embedded): void {
   addEventListener('message', (event: MessageEvent) => {
     if (event.source !== parent || parent === window) return;
-    const message = event.data as ToPage;
-    if (message.weir === 'pause') app.setPaused(message.paused);
-    if (message.weir === 'restart') app.restart();
+    const message = event.data as ToPage | null; // other scripts of the host may send what they like
+    if (message?.weir === 'pause') app.setPaused(message.paused);
+    if (message?.weir === 'restart') app.restart();
   });
 }

@@ -32,6 +32,10 @@ export type EngineStats = {
   warning: string; // the simulation's own advice; '' if none
 };
 
+// As weir_sim_warning() has them: too fast, or too compressed, for nearly incompressible flow.
+export const isFast = (clock: Clock): boolean => clock.machNumber > 0.1;
+export const isCompressed = (clock: Clock): boolean => clock.maxDensityError > 0.03;
+
 export type FaultKind =
   | 'input' // the scene is refused
   | 'unstable' // the fluid blew up; the engine is fine

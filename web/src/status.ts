@@ -1,5 +1,5 @@
 // The status line: what runs, where, how fast and how true. Averages over about a second, written four times a second.
-import type { Engine, EngineStats } from './engine.ts';
+import { isCompressed, isFast, type Engine, type EngineStats } from './engine.ts';
 import { formatCount, formatNumber } from './format.ts';
 
 const windowMs = 1000;
@@ -80,8 +80,8 @@ export class StatusLine {
     const { timeStep, machNumber, maxDensityError } = clock;
     return [
       cell(`${formatNumber(1000 * timeStep, 3)} ms`, 'time step'),
-      cell(formatNumber(machNumber, 2), 'Mach', machNumber > 0.1 ? 'slow' : '', advised('Of the fastest particle: its speed over the speed of sound', warning)),
-      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', maxDensityError > 0.03 ? 'slow' : '', advised('The largest of all particles', warning)),
+      cell(formatNumber(machNumber, 2), 'Mach', isFast(clock) ? 'slow' : '', advised('Of the fastest particle: its speed over the speed of sound', warning)),
+      cell(`${formatNumber(100 * maxDensityError, 2)} %`, 'density error', isCompressed(clock) ? 'slow' : '', advised('The largest of all particles', warning)),
     ];
   }
 

@@ -68,12 +68,12 @@ export class WeirFluid extends HTMLElement {
 
   readonly #hear = (event: MessageEvent): void => {
     if (event.source !== this.#frame.contentWindow) return;
-    const message = event.data as FromPage;
-    if (message.weir === 'ready') {
+    const message = event.data as FromPage | null;
+    if (message?.weir === 'ready') {
       this.#ready = true;
       this.#pause();
       this.dispatchEvent(new Event('ready'));
-    } else if (message.weir === 'error') {
+    } else if (message?.weir === 'error') {
       this.dispatchEvent(new CustomEvent('error', { detail: message.message }));
     }
   };

@@ -18,15 +18,10 @@ struct Corner {
     tone: f32,
 }
 
-fn turned(q: vec4f, v: vec3f) -> vec3f {
-    let once = cross(q.xyz, v);
-    return v + 2.0 * (q.w * once + cross(q.xyz, once));
-}
-
 fn corner_now(index: u32) -> Corner {
     let place = corners[2u * index];
     let look = corners[2u * index + 1u];
     let solid = bitcast<u32>(place.w);
     let q = solid_state[solid].orientation;
-    return Corner(solid_state[solid].position.xyz + turned(q, place.xyz), turned(q, look.xyz), solid, look.w);
+    return Corner(solid_state[solid].position.xyz + rotate(q, place.xyz), rotate(q, look.xyz), solid, look.w);
 }
