@@ -9,29 +9,17 @@ struct Drifted {
     fate: u32,
 }
 
-fn is_periodic(axis: u32) -> bool {
-    return (axis == 0u && PERIODIC_X) || (axis == 1u && PERIODIC_Y) || (axis == 2u && PERIODIC_Z);
-}
-
-// Is the side (0 low, 1 high) of an axis one of the domain's own walls?
-fn has_wall(axis: u32, side: u32) -> bool {
-    return !is_periodic(axis) && ((constants.open_sides >> (2u * axis + side)) & 1u) == 0u;
+// Along which axes a side (0 low, 1 high) is one of the domain's own walls. All axes at once: a loop over them costs
+// browsers more than its work (common/near.wgsl).
+fn walled_axes(side: u32) -> Axes {
+    return !(periodic_axes() | axes_of(constants.open_sides >> side));
 }
 
 // Fluid beyond an open side, or beyond a wall by more than a support radius, is gone.
 fn is_outside(at: Vector) -> bool {
-    let reach = constants.search_radius;
-    for (var axis = 0u; axis < DIMENSION; axis++) {
-        if is_periodic(axis) {
-            continue;
-        }
-        let low = select(0.0, reach, has_wall(axis, 0u));
-        let high = select(0.0, reach, has_wall(axis, 1u));
-        if at[axis] < constants.domain_min[axis] - low || at[axis] > constants.domain_max[axis] + high {
-            return true;
-        }
-    }
-    return false;
+    let low = vector_of(constants.domain_min) - select(Vector(), Vector(constants.search_radius), walled_axes(0u));
+    let high = vector_of(constants.domain_max) + select(Vector(), Vector(constants.search_radius), walled_axes(1u));
+    return any(((at < low) | (at > high)) & !periodic_axes());
 }
 
 fn is_in_drain(at: Vector, n: u32) -> bool {

@@ -63,16 +63,11 @@ fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
     let depth = Vector(SEAL_DEPTH * parameters.particle_spacing);
     let low = (vector_of(constants.domain_min) - depth - origin) * constants.inverse_quantum;
     let high = (vector_of(constants.domain_max) + depth - origin) * constants.inverse_quantum;
-    for (var axis = 0u; axis < DIMENSION; axis++) {
-        if has_wall(axis, 0u) && f32((*place)[axis]) < low[axis] {
-            (*place)[axis] = i32(low[axis]);
-            (*velocity)[axis] = max((*velocity)[axis], 0.0);
-        }
-        if has_wall(axis, 1u) && f32((*place)[axis]) > high[axis] {
-            (*place)[axis] = i32(high[axis]);
-            (*velocity)[axis] = min((*velocity)[axis], 0.0);
-        }
-    }
+    let below = walled_axes(0u) & (Vector(*place) < low);
+    let above = walled_axes(1u) & (Vector(*place) > high);
+    *place = select(select(*place, Place(high), above), Place(low), below);
+    *velocity = select(*velocity, max(*velocity, Vector()), below);
+    *velocity = select(*velocity, min(*velocity, Vector()), above);
 }
 
 // `kicked`: new velocity, density in the middle of the step. `shift`: shifting velocity, drho/dt.

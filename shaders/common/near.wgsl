@@ -14,13 +14,18 @@ fn near_among(place: Place, first: u32, left: u32, limit: f32, unseen: u32) -> u
     return near & (0xffffffffu >> (32u - min(left, 32u)));
 }
 
+// Written out, not a loop: Firefox counts every loop's turns lest it never ends, and the driver then cannot unroll it. Making
+// lists took six times as long by that (docs/performance.md).
 fn near_block(place: Place, first: u32, limit: f32, unseen: u32) -> u32 {
-    var candidates = coordinate_block(first); // beyond the run's end too, where it does not count
-    var near = 0u;
-    for (var k = 0u; k < BLOCK; k++) {
-        let offset = Vector(place - place_of(candidates[k]));
-        let is_seen = !(HAS_SOLIDS && u32(candidates[k].w) - GROUP_SOLID < unseen);
-        near |= select(0u, 1u << k, dot(offset, offset) < limit && is_seen);
-    }
-    return near;
+    let found = coordinate_block(first); // beyond the run's end too, where it does not count
+    return near_bit(place, found[0], limit, unseen) | (near_bit(place, found[1], limit, unseen) << 1u)
+        | (near_bit(place, found[2], limit, unseen) << 2u) | (near_bit(place, found[3], limit, unseen) << 3u)
+        | (near_bit(place, found[4], limit, unseen) << 4u) | (near_bit(place, found[5], limit, unseen) << 5u)
+        | (near_bit(place, found[6], limit, unseen) << 6u) | (near_bit(place, found[7], limit, unseen) << 7u);
+}
+
+fn near_bit(place: Place, candidate: vec4i, limit: f32, unseen: u32) -> u32 {
+    let offset = Vector(place - place_of(candidate));
+    let is_seen = !(HAS_SOLIDS && u32(candidate.w) - GROUP_SOLID < unseen);
+    return select(0u, 1u, dot(offset, offset) < limit && is_seen);
 }

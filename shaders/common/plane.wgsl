@@ -1,6 +1,7 @@
 // Two dimensions: what particles are made of. common/space.wgsl is the same in three.
 alias Vector = vec2f;
 alias Place = vec2i;
+alias Axes = vec2<bool>;
 const DIMENSION = 2u;
 
 fn vector_of(v: vec4f) -> Vector {
@@ -32,6 +33,16 @@ fn wrap_z(to: Place) -> Place {
 // 0 along axes that are not periodic.
 fn periods() -> Place {
     return Place(vec2u(constants.period_x, constants.period_y));
+}
+
+// drift.wgsl
+fn periodic_axes() -> Axes {
+    return Axes(PERIODIC_X, PERIODIC_Y);
+}
+
+// Bits 0, 2 and 4.
+fn axes_of(sides: u32) -> Axes {
+    return (vec2u(sides) & vec2u(1u, 4u)) != vec2u(0u);
 }
 
 fn nearest_z(way: Place) -> Place {

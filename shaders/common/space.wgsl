@@ -1,6 +1,7 @@
 // Three dimensions: what particles are made of. common/plane.wgsl is the same in two.
 alias Vector = vec3f;
 alias Place = vec3i;
+alias Axes = vec3<bool>;
 const DIMENSION = 3u;
 
 fn vector_of(v: vec4f) -> Vector {
@@ -34,6 +35,16 @@ fn wrap_z(to: Place) -> Place {
 // 0 along axes that are not periodic.
 fn periods() -> Place {
     return Place(vec3u(constants.period_x, constants.period_y, constants.period_z));
+}
+
+// drift.wgsl
+fn periodic_axes() -> Axes {
+    return Axes(PERIODIC_X, PERIODIC_Y, PERIODIC_Z);
+}
+
+// Bits 0, 2 and 4.
+fn axes_of(sides: u32) -> Axes {
+    return (vec3u(sides) & vec3u(1u, 4u, 16u)) != vec3u(0u);
 }
 
 fn nearest_z(way: Place) -> Place {
