@@ -3,7 +3,8 @@
 //
 // in:  coordinate, id, control
 // out: cell_count (was 0), cell_link: the head of each cell's list (was 0: empty), then the next of each id; an
-//      entry is an id plus 1, 0 ends the list. Of an empty slot: its rank among them.
+//      entry is an id plus 1, 0 ends the list. Of an empty slot: its rank among them. Between heads and ids 0, for
+//      pass neighbors to count slots of fluid.
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<atomic<u32>>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<atomic<u32>>;
@@ -18,6 +19,9 @@ fn count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
         return;
     }
     let stride = workgroups.x * workgroups.y * WORKGROUP_SIZE;
+    if thread_index(workgroup, workgroups, local) == 0u {
+        atomicStore(&cell_link[constants.cell_count], 0u);
+    }
     for (var first = workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE; first < constants.particle_count; first += stride) {
         count_block(first + local, local);
     }

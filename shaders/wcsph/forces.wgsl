@@ -408,12 +408,15 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     }
     workgroupBarrier();
     let thread = thread_index(workgroup, workgroups, local);
-    let i = thread / LANES;
     var runs = control.stepping == 1u;
     if FORCES_READ {
         runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
     }
-    let works = i < constants.particle_count && runs;
+    let works = thread / LANES < constants.particle_count && runs;
+    var i = thread / LANES;
+    if FLUID_FIRST && works {
+        i = cell_start[fluid_first_at(i)];
+    }
     leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
         forces_on(i, local);
@@ -447,6 +450,9 @@ fn forces_on(i: u32, local: u32) {
     if is_fluid(group) {
         forces_on_fluid(i, own, own_motion, local);
         return;
+    }
+    if FINISHES && is_solid(group) && control.sorting == 0u && control.next_dt > 0.0 {
+        return; // it stands in both working copies
     }
     // Of a moving solid pass kick knows better.
     var kept = vec4f(0.0);

@@ -1,13 +1,17 @@
-// After a sort: each particle's list (common/neighbors.wgsl), the slots of solid particles, and the state's ids.
+// After a sort: each particle's list (common/neighbors.wgsl), the slots of solid particles, and the state's ids; and the slots
+// with those of fluid first (common/lists.wgsl).
 // Solid particles list fluid alone.
 //
 // in:  coordinate, sorted_id, cell_start, control
-// out: neighbor_list, solid_particle (slots), id; cell_link's heads are emptied for the next count
+// out: neighbor_list, solid_particle (slots), id, the end of cell_start; cell_link's heads are emptied for the next count
 @group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
-@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
+@group(0) @binding(BINDING_cell_start) var<storage, read_write> cell_start: array<u32>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read_write> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_id) var<storage, read_write> id: array<u32>;
-@group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<u32>;
+@group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<atomic<u32>>;
+
+var<workgroup> fluid_slots: atomic<u32>; // wgpu-native does not zero it
+var<workgroup> fluid_before: atomic<u32>;
 
 // Across the end of an axis runs do not come in the order of their slots, and entries count from the lowest one.
 const WRAPS = DIMENSION == 3u && (PERIODIC_X || PERIODIC_Y);
@@ -102,13 +106,46 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
     if !is_sorting() {
         return;
     }
-    let thread = thread_index(workgroup, workgroups, local);
+    let first_thread = workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE;
     let threads = workgroups.x * workgroups.y * WORKGROUP_SIZE;
-    for (var cell = thread; cell <= constants.cell_count; cell += threads) {
-        cell_link[cell] = 0u;
+    for (var cell = first_thread + local; cell < constants.cell_count; cell += threads) {
+        atomicStore(&cell_link[cell], 0u);
     }
-    for (var i = thread; i < constants.particle_count; i += threads) {
-        note_particle(i);
+    for (var first = first_thread; first < constants.particle_count; first += threads) {
+        if FLUID_FIRST {
+            put_fluid_first(first + local, local);
+        }
+        if first + local < constants.particle_count {
+            note_particle(first + local);
+        }
+    }
+}
+
+// Which thread of `forces` takes a particle is the same to its sums, so workgroups come in any order. Solids stand by id.
+fn put_fluid_first(i: u32, local: u32) {
+    if local == 0u {
+        atomicStore(&fluid_slots, 0u);
+    }
+    workgroupBarrier();
+    let is_particle = i < constants.particle_count;
+    var k = 0u;
+    if is_particle {
+        k = sorted_id[i];
+    }
+    let is_first = is_particle && k < constants.first_solid;
+    if is_first {
+        k = atomicAdd(&fluid_slots, 1u);
+    }
+    workgroupBarrier();
+    if local == 0u {
+        atomicStore(&fluid_before, atomicAdd(&cell_link[constants.cell_count], atomicLoad(&fluid_slots)));
+    }
+    workgroupBarrier();
+    if is_first {
+        k += atomicLoad(&fluid_before);
+    }
+    if is_particle {
+        cell_start[fluid_first_at(k)] = i;
     }
 }
 

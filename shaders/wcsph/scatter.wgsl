@@ -46,4 +46,9 @@ fn move_particle(i: u32) {
     set_coordinate(start + slot, vec4i(wide_place(place), at.w));
     set_motion(start + slot, motion_at(i));
     sorted_id[slot] = own;
+    if HAS_SOLIDS && !MOVING_SOLIDS && is_solid(u32(at.w)) {
+        let other = side_start(1u - control.side) + slot; // so that no step need carry it over
+        set_coordinate(other, vec4i(wide_place(place), at.w));
+        set_motion(other, motion_at(i));
+    }
 }

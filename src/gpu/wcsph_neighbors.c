@@ -20,7 +20,6 @@ enum { LIST_BLOCK = 128 };
 // Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
 static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
 static const uint32_t most_lanes = 8;
-static const uint32_t many_particles = 500000;
 
 static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
 {
@@ -102,11 +101,11 @@ static uint32_t lanes_for(double particles, double neighbors, bool software)
     return lanes;
 }
 
-// Threads of a workgroup of pass forces in 3D: small ones where several share a particle, large ones where there are very many.
-static uint32_t share_threads_for(uint32_t dimension, uint32_t lanes, uint32_t particles)
+// Threads of a workgroup of pass forces: in 3D small ones where several share a particle, large ones elsewhere.
+static uint32_t share_threads_for(uint32_t dimension, uint32_t lanes)
 {
-    if (dimension == 3 && lanes > 1) return WEIR_WORKGROUP_SIZE / 2;
-    return dimension == 3 && particles >= many_particles ? 2 * WEIR_WORKGROUP_SIZE : WEIR_WORKGROUP_SIZE;
+    if (dimension == 2) return WEIR_WORKGROUP_SIZE;
+    return lanes > 1 ? WEIR_WORKGROUP_SIZE / 2 : 2 * WEIR_WORKGROUP_SIZE;
 }
 
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
@@ -116,7 +115,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
     double pairs = constants->particle_count * neighbors;
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
-    traits->share_threads = share_threads_for(constants->dimension, traits->lanes, constants->particle_count);
+    traits->share_threads = share_threads_for(constants->dimension, traits->lanes);
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;

@@ -139,8 +139,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
     [WEIR_WCSPH_SCATTER] = {WCSPH(scatter), NULL, NULL, BIT(id) | BIT(cell_link) | BIT(cell_start),
                             PARTICLES | BIT(sorted_id) | BIT(control), WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_NEIGHBORS] = {WCSPH(neighbors), NULL, lists_part,
-                              BIT(coordinate) | BIT(sorted_id) | BIT(cell_start) | BIT(control),
-                              BIT(neighbor_list) | BIT(solid_particle) | BIT(id) | BIT(cell_link),
+                              BIT(coordinate) | BIT(sorted_id) | BIT(control),
+                              BIT(cell_start) | BIT(neighbor_list) | BIT(solid_particle) | BIT(id) |
+                                  BIT(cell_link),
                               WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, walls_part,
                           BIT(coordinate) | SEARCH | BIT(solid_particle) | BIT(solid_state),
@@ -211,7 +212,8 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
-    sizes[WEIR_WCSPH_cell_start].bytes = 4 * cells;
+    bool fluid_first = traits->dimension == 3 && traits->solid_count > 0; // common/lists.wgsl
+    sizes[WEIR_WCSPH_cell_start].bytes = 4 * (cells + (fluid_first ? count : 0));
     sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + count);
     sizes[WEIR_WCSPH_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
     sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->moving_solids ? 2 : 1, 0};
