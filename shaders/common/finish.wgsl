@@ -1,6 +1,6 @@
 // The second half of a step's move with health (weir_wcsph_finish): rho += dt/2 drho, x += dt/2 v + dt u; and the first half of the
-// next step's move, if there is one. Used by forces where no solid moves, and by pass finish; after common/drift.wgsl.
-// One thread of a workgroup calls clear_finish() before, and publish_finish() after all others are through.
+// next step's move, if there is one. Of fluid by pass forces, of which one thread of a workgroup calls clear_finish() before, and
+// publish_finish() after all others are through; of solids' particles by pass finish, if any move. After common/drift.wgsl.
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
 // Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
@@ -112,4 +112,17 @@ fn leave(i: u32, at: vec4i, own_motion: vec4f) {
     let target_slot = select(side_start(1u - control.last_side), 0u, sorts) + i;
     set_coordinate(target_slot, at);
     set_motion(target_slot, own_motion);
+}
+
+// A particle of a solid, in the velocity of which is not yet what its surface slides. Its density is what walls saw.
+fn leave_solid(i: u32, at: vec4i, velocity: vec3f) {
+    let surface = solid_table[u32(at.w) - GROUP_SOLID].surface_velocity.xyz;
+    leave(i, at, vec4f(velocity + surface, motion_at(side_start(control.last_side) + i).w));
+}
+
+// Of a solid that stays where it is: it stands in both working copies (pass scatter), so only the state may lack it.
+fn leave_fixed(i: u32, at: vec4i) {
+    if control.sorting == 1u || control.next_dt == 0.0 {
+        leave_solid(i, at, vec3f(0.0));
+    }
 }

@@ -1,18 +1,15 @@
 // Acceleration from pressure, viscosity and body forces, with the kick: new velocities; shifting velocity; drho/dt; the
-// fluid's force on the particles of free bodies. The largest speed and acceleration of the fluid. Where no solid moves, the
-// step's second half and the first half of the next one's move too (common/finish.wgsl).
+// fluid's force on the particles of free bodies. The largest speed and acceleration of the fluid. Of fluid also the
+// second half of the step's move and the first half of the next one's (common/finish.wgsl).
 //
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
-// out: kicked: new velocity and density; its second copy: shifting velocity and drho/dt. Of particles of free bodies:
-//      force of contact and density; force of the fluid. Where no solid moves instead: coordinate, motion as pass finish
-//      leaves them. density_rate, if no step follows. control: maxima, where the next step finds the particles
+// out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; density_rate, if none
+//      follows. kicked, of particles of free bodies: force of contact; its second copy: force of the fluid. control: maxima,
+//      where the next step finds the particles
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
 @group(0) @binding(BINDING_density_rate) var<storage, read_write> density_rate: array<f32>;
-
-// Whether it does what otherwise pass finish does.
-const FINISHES = !MOVING_SOLIDS && !FORCES_READ;
 
 // Of the working copy: a read is between two steps.
 fn reading_start() -> u32 {
@@ -334,9 +331,7 @@ fn take_acceleration(square: f32) {
 fn clear_maxima() {
     atomicStore(&speed_most, 0u);
     atomicStore(&acceleration_most, 0u);
-    if FINISHES || FORCES_READ {
-        clear_finish();
-    }
+    clear_finish();
 }
 
 fn publish_maxima() {
@@ -381,16 +376,10 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if free {
         take_acceleration(dot(acceleration, acceleration));
     }
-    let new_motion = vec4f(wide(new_velocity), own_motion.w);
     if control.next_dt == 0.0 {
         density_rate[i] = shift.w;
     }
-    if FINISHES {
-        finish_fluid(i, own, new_motion, shift);
-    } else {
-        set_kicked(i, new_motion);
-        set_kicked(constants.particle_count + i, shift);
-    }
+    finish_fluid(i, own, vec4f(wide(new_velocity), own_motion.w), shift);
 }
 
 // One thread tells the next step's sort and walls, which run after this pass, where they find the particles.
@@ -425,7 +414,7 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
         publish_maxima();
     }
-    if FINISHES && local == 0u {
+    if !FORCES_READ && local == 0u {
         publish_finish();
     }
     if !FORCES_READ && thread == 0u && runs {
@@ -446,34 +435,30 @@ fn share_of(i: u32, lane: u32) -> Sums {
 fn forces_on(i: u32, local: u32) {
     let own = coordinate_at(reading_start() + i);
     let own_motion = motion_at(reading_start() + i);
-    let group = u32(own.w);
-    if is_fluid(group) {
+    if is_fluid(u32(own.w)) {
         forces_on_fluid(i, own, own_motion, local);
+    } else if HAS_SOLIDS && is_solid(u32(own.w)) {
+        forces_on_solid(i, own, own_motion, local);
+    } else if FORCES_READ {
+        set_kicked(i, vec4f(0.0));
+    } else {
+        leave(i, own, vec4f(0.0));
+    }
+}
+
+fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
+    if !MOVING_SOLIDS && !FORCES_READ {
+        leave_fixed(i, own);
         return;
     }
-    if FINISHES && is_solid(group) && control.sorting == 0u && control.next_dt > 0.0 {
-        return; // it stands in both working copies
-    }
-    // Of a moving solid pass kick knows better.
-    var kept = vec4f(0.0);
-    if HAS_SOLIDS && is_solid(group) {
-        kept.w = own_motion.w;
-    }
-    if FINISHES {
-        if HAS_SOLIDS && is_solid(group) {
-            kept += vec4f(solid_table[group - GROUP_SOLID].surface_velocity.xyz, 0.0);
-        }
-        leave(i, own, kept);
+    if !wants_force(u32(own.w)) {
         return;
     }
-    if HAS_SOLIDS && is_solid(group) && wants_force(group) {
-        let acceleration = wide(acceleration_of_solid(i, own, own_motion, local));
-        if FORCES_READ {
-            kept = vec4f(acceleration, linear_pressure(own_motion.w));
-        } else {
-            kept = vec4f(wide(contact_force(own)), own_motion.w);
-            set_kicked(constants.particle_count + i, vec4f(constants.particle_mass * acceleration, 0.0));
-        }
+    let acceleration = wide(acceleration_of_solid(i, own, own_motion, local));
+    if FORCES_READ {
+        set_kicked(i, vec4f(acceleration, linear_pressure(own_motion.w)));
+        return;
     }
-    set_kicked(i, kept);
+    set_kicked(i, vec4f(wide(contact_force(own)), 0.0));
+    set_kicked(constants.particle_count + i, vec4f(constants.particle_mass * acceleration, 0.0));
 }

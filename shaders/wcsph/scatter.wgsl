@@ -46,7 +46,7 @@ fn move_particle(i: u32) {
     set_coordinate(start + slot, vec4i(wide_place(place), at.w));
     set_motion(start + slot, motion_at(i));
     sorted_id[slot] = own;
-    if HAS_SOLIDS && !MOVING_SOLIDS && is_solid(u32(at.w)) {
+    if HAS_SOLIDS && is_solid(u32(at.w)) && solid_table[u32(at.w) - GROUP_SOLID].kind == SOLID_FIXED {
         let other = side_start(1u - control.side) + slot; // so that no step need carry it over
         set_coordinate(other, vec4i(wide_place(place), at.w));
         set_motion(other, motion_at(i));

@@ -64,7 +64,8 @@ fn solids(@builtin(local_invocation_index) local: u32) {
     workgroupBarrier();
     if local == 0u && control.stepping == 1u {
         control.acceleration_bits = max(control.acceleration_bits, atomicLoad(&largest));
-        control.moved_finish[1u - control.last_side] = atomicLoad(&finish_most);
-        control.moved_drift[1u - control.last_side] = atomicLoad(&drift_most);
+        let side = 1u - control.last_side;
+        control.moved_finish[side] = max(control.moved_finish[side], atomicLoad(&finish_most));
+        control.moved_drift[side] = max(control.moved_drift[side], atomicLoad(&drift_most));
     }
 }

@@ -66,7 +66,6 @@ static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
     if (solver->traits.moving_solids) {
         weir_record(recorder, WEIR_WCSPH_SOLIDS);
-        weir_record(recorder, WEIR_WCSPH_KICK);
         weir_record(recorder, WEIR_WCSPH_FINISH);
     }
 }

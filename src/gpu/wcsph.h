@@ -6,7 +6,7 @@
 //     |                                                  |
 //     +-- finish (with the next step's drift) -----------+
 //
-// finish is a part of forces, or, where solids move, a pass of its own after solid_forces, solids and kick.
+// Of fluid finish is a part of forces; where solids move, that of their particles is a pass of its own after solid_forces and solids.
 //
 // `coordinate` and `motion` hold three copies of the particles: the state between calls, and two working copies, one
 // read and one written in turn by the steps of a batch. Particles keep their slots until the device finds that lists and
@@ -79,7 +79,6 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_SOLID_FORCES,
     WEIR_WCSPH_SOLIDS,
     WEIR_WCSPH_TIME_STEP,
-    WEIR_WCSPH_KICK,
     WEIR_WCSPH_FINISH,
     WEIR_WCSPH_BEGIN_READ,
     WEIR_WCSPH_LOAD,

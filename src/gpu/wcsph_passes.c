@@ -43,7 +43,6 @@ SHADER(wcsph_forces)
 SHADER(wcsph_solid_forces)
 SHADER(wcsph_solids)
 SHADER(wcsph_time_step)
-SHADER(wcsph_kick)
 SHADER(wcsph_finish)
 SHADER(wcsph_first_step)
 SHADER(wcsph_health)
@@ -154,11 +153,8 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                            BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control) | BIT(sort_groups),
                               WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_KICK] = {WCSPH(kick), NULL, NULL,
-                         BIT(coordinate) | BIT(solid_particle) | BIT(solid_state) | BIT(control), BIT(kicked),
-                         WEIR_ITEMS_SOLIDS},
-    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(kicked), PARTICLES | BIT(control),
-                           WEIR_ITEMS_PARTICLES},
+    [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(solid_particle) | BIT(solid_state),
+                           PARTICLES | BIT(control), WEIR_ITEMS_SOLIDS},
     [WEIR_WCSPH_BEGIN_READ] = {WCSPH(begin_read), NULL, clock_part, 0, BIT(control), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_LOAD] = {WCSPH(load), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
     [WEIR_WCSPH_STORE] = {WCSPH(store), NULL, NULL, BIT(control), PARTICLES, WEIR_ITEMS_PARTICLES},
@@ -216,7 +212,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_cell_start].bytes = 4 * (cells + (fluid_first ? count : 0));
     sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + count);
     sizes[WEIR_WCSPH_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
-    sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->moving_solids ? 2 : 1, 0};
+    sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->free_solids ? 2 : 1, 0};
     sizes[WEIR_WCSPH_density_rate].bytes = 4 * count;
     sizes[WEIR_WCSPH_solid_state].bytes = 3 * solids * sizeof(WeirSolidState);
     sizes[WEIR_WCSPH_solid_particle].bytes = 16 * at_least_one(solid_particles);
@@ -292,7 +288,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
     needed |= traits->solid_count > 0 ? PASS(WALLS) | PASS(SOLID_FORCES_READ) : PASS(TIME_STEP);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);
-    if (traits->moving_solids) needed |= PASS(SOLIDS) | PASS(KICK) | PASS(FINISH);
+    if (traits->moving_solids) needed |= PASS(SOLIDS) | PASS(FINISH);
 #undef PASS
     return needed;
 }

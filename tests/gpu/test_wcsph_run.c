@@ -515,9 +515,8 @@ static void parameters_change_while_it_runs(void **state)
 static void passes_are_timed(void **state)
 {
     (void)state;
-    static const char *const names[] = {"count",     "scan_reduce", "scan_write", "scatter",
-                                        "neighbors", "walls",       "forces",     "solid_forces",
-                                        "solids",    "kick",        "finish"};
+    static const char *const names[] = {"count", "scan_reduce", "scan_write",   "scatter", "neighbors",
+                                        "walls", "forces",      "solid_forces", "solids",  "finish"};
     WeirTestWorld test = weir_test_case("body_3d");
     WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
     take_steps(solver, 3, INFINITY);
