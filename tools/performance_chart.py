@@ -62,7 +62,8 @@ def draw_panel(axes, case):
     weir = [path for path in sorted(FOLDER.glob("*.csv")) if not re.match("prototype|targets", path.name)]
     for k, path in enumerate(weir):
         rows = [row for row in rows_of(path) if row["scene"] == case and row["backend"] == "gpu"]
-        draw_lines(axes, rows, lambda _: f"Weir, {path.stem}", color=COLORS[k], marker="o", markersize=3, linewidth=1.4)
+        color = COLORS[k % len(COLORS)]
+        draw_lines(axes, rows, lambda _: f"Weir, {path.stem}", color=color, marker="o", markersize=3, linewidth=1.4)
     for path in sorted(FOLDER.glob("prototype*.csv")):
         rows = [row for row in rows_of(path) if row["scene"] == case]
         draw_lines(axes, rows, lambda row: f"prototype {row['variant']}, {path.stem.split('-', 1)[1]}", color=COLORS[2],
