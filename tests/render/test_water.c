@@ -268,7 +268,7 @@ static void no_fluid_no_water(void **state)
 {
     WeirSim *sim = pool(false);
     WeirView view = view_of(WEIR_FLUID_WATER);
-    const uint32_t water = 1u << WEIR_EFFECT_SHADE | 1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_THICKNESS |
+    const uint32_t water = 1u << WEIR_EFFECT_HEIGHT | 1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_THICKNESS |
                            1u << WEIR_EFFECT_SMOOTH;
     WeirImage empty, scene;
     draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &empty);

@@ -48,18 +48,41 @@ fn light_texel(light: vec3f) -> vec2f {
     return (light.xy * vec2f(0.5, -0.5) + 0.5) * shadow_size;
 }
 
-// Linear light of the surroundings in a direction: a soft box of light above, dark blue below.
-fn surroundings(direction: vec3f) -> vec3f {
-    let height = direction.y;
-    let sky = mix(vec3f(0.06, 0.10, 0.18), vec3f(0.42, 0.56, 0.78), smoothstep(-0.1, 0.95, height));
-    let box = smoothstep(0.72, 0.95, height) * vec3f(0.75, 0.78, 0.80);
-    return select(sky + box, vec3f(0.030, 0.042, 0.065) * (1.0 + max(height, -1.0)), height < -0.1);
+const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
+const sunlight = vec3f(1.30, 1.22, 1.10);    // linear light of a white surface that faces it
+
+// Linear light as a picture shows it: what is too bright for it comes near to white slowly.
+fn exposed(light: vec3f) -> vec3f {
+    let over = max(light - 0.5, vec3f(0.0));
+    return to_srgb(min(light, vec3f(0.5)) + 0.5 * (1.0 - exp(-2.0 * over)));
 }
 
-// Behind everything, sRGB: a dark room with a glow at the height of the horizon.
-fn backdrop(pixel: vec2f) -> vec3f {
-    let uv = pixel / frame.size;
-    let from_middle = (uv - vec2f(0.5, 0.46)) * vec2f(1.0, 1.15);
-    let glow = exp(-4.2 * dot(from_middle, from_middle));
-    return mix(vec3f(0.020, 0.028, 0.052), vec3f(0.086, 0.128, 0.205), glow);
+// Linear light of the sky, `direction` upwards: blue above, a bright haze at the horizon, lighter on one side, thin clouds.
+fn sky(direction: vec3f) -> vec3f {
+    let height = max(direction.y, 0.0);
+    let flat = direction.xz * inverseSqrt(max(dot(direction.xz, direction.xz), 1e-6));
+    let warm = 0.5 + 0.5 * dot(flat, vec2f(-0.50, -0.866));
+    let haze = mix(vec3f(0.20, 0.42, 0.78), vec3f(0.66, 0.80, 0.92), warm * warm);
+    var light = mix(vec3f(0.055, 0.150, 0.360), haze, exp(-4.6 * height));
+    let place = direction.xz / (height + 0.16);
+    let streaks = sin(1.9 * place.x + 1.3 * sin(0.8 * place.y)) * sin(1.1 * place.y - 0.7 + 0.9 * sin(1.2 * place.x));
+    light += vec3f(0.60, 0.60, 0.62) * smoothstep(0.15, 0.95, streaks) * smoothstep(0.03, 0.40, height);
+    let from_sun = max(dot(direction, sun), 0.0);
+    return light + sunlight * (0.35 * pow(from_sun, 12.0) + 2.2 * smoothstep(0.978, 0.992, from_sun));
+}
+
+const floor_tone = vec3f(0.038, 0.056, 0.086); // of the light on it
+
+// The floor's share of the light that comes from the sky as from a polished stone, seen along `direction`.
+fn floor_gloss(direction: vec3f) -> f32 {
+    let facing = clamp(-direction.y, 0.0, 1.0);
+    return 0.012 + 0.95 * pow(1.0 - facing, 20.0);
+}
+
+// Linear light of what lies around, in a direction: the sky, the floor far away.
+fn surroundings(direction: vec3f) -> vec3f {
+    let up = vec3f(direction.x, abs(direction.y), direction.z);
+    let light = sky(up);
+    if direction.y >= 0.0 { return light; }
+    return mix(floor_tone * 0.8, light, floor_gloss(direction));
 }
