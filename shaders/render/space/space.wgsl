@@ -49,7 +49,7 @@ fn light_texel(light: vec3f) -> vec2f {
 }
 
 const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
-const sunlight = vec3f(1.30, 1.22, 1.10);    // linear light of a white surface that faces it
+const sunlight = vec3f(1.38, 1.24, 1.06);    // linear light of a white surface that faces it
 
 // Linear light as a picture shows it: what is too bright for it comes near to white slowly.
 fn exposed(light: vec3f) -> vec3f {
@@ -57,18 +57,36 @@ fn exposed(light: vec3f) -> vec3f {
     return to_srgb(min(light, vec3f(0.5)) + 0.5 * (1.0 - exp(-2.0 * over)));
 }
 
-// Linear light of the sky, `direction` upwards: blue above, a bright haze at the horizon, lighter on one side, thin clouds.
+// Noise without steps, 0 to 1, one bump per unit.
+fn smooth_noise(place: vec2f) -> f32 {
+    let corner = floor(place);
+    let part = fract(place);
+    let share = part * part * (3.0 - 2.0 * part);
+    let cell = vec2u(vec2i(corner) + 32768);
+    let low = mix(pixel_noise(cell), pixel_noise(cell + vec2u(1u, 0u)), share.x);
+    let high = mix(pixel_noise(cell + vec2u(0u, 1u)), pixel_noise(cell + 1u), share.x);
+    return mix(low, high, share.y);
+}
+
+const glow_side = vec2f(-0.50, -0.866); // of the horizon, x and z
+
+// Linear light of the sky, `direction` upwards: an evening, deep blue above and golden at one side of the horizon, with
+// thin clouds.
 fn sky(direction: vec3f) -> vec3f {
     let height = max(direction.y, 0.0);
     let flat = direction.xz * inverseSqrt(max(dot(direction.xz, direction.xz), 1e-6));
-    let warm = 0.5 + 0.5 * dot(flat, vec2f(-0.50, -0.866));
-    let haze = mix(vec3f(0.20, 0.42, 0.78), vec3f(0.66, 0.80, 0.92), warm * warm);
-    var light = mix(vec3f(0.055, 0.150, 0.360), haze, exp(-4.6 * height));
-    let place = direction.xz / (height + 0.16);
-    let streaks = sin(1.9 * place.x + 1.3 * sin(0.8 * place.y)) * sin(1.1 * place.y - 0.7 + 0.9 * sin(1.2 * place.x));
-    light += vec3f(0.60, 0.60, 0.62) * smoothstep(0.15, 0.95, streaks) * smoothstep(0.03, 0.40, height);
+    let side = 0.5 + 0.5 * dot(flat, glow_side);
+    let glow = side * side * side;
+    var light = mix(vec3f(0.026, 0.072, 0.185), mix(vec3f(0.125, 0.25, 0.46), vec3f(0.25, 0.36, 0.50), glow), exp(-3.6 * height));
+    light += vec3f(0.92, 0.46, 0.18) * (0.08 + 0.92 * glow) * exp(-11.0 * height);
+    // Clouds on a ceiling, long across the glow; far ones melt into the haze.
+    let place = direction.xz / (height + 0.10);
+    let along = vec2f(dot(place, vec2f(-glow_side.y, glow_side.x)), 2.6 * dot(place, glow_side));
+    let cloud = 0.62 * smooth_noise(0.75 * along + 7.3) + 0.38 * smooth_noise(1.9 * along + 3.1);
+    light += mix(vec3f(0.19, 0.24, 0.34), vec3f(0.72, 0.44, 0.30), glow * exp(-3.0 * height))
+        * (smoothstep(0.48, 0.85, cloud) * smoothstep(0.02, 0.22, height));
     let from_sun = max(dot(direction, sun), 0.0);
-    return light + sunlight * (0.35 * pow(from_sun, 12.0) + 2.2 * smoothstep(0.978, 0.992, from_sun));
+    return light + sunlight * (0.30 * pow(from_sun, 14.0) + 2.4 * smoothstep(0.978, 0.992, from_sun));
 }
 
 const floor_tone = vec3f(0.038, 0.056, 0.086); // of the light on it
