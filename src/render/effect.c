@@ -78,9 +78,10 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LENS, LIGHT}, .blends = true, .tests_depth = true, .writes_depth = true),
-    [WEIR_EFFECT_SOLIDS] = EFFECT("solids", space_solids, .target = TARGET_SCENE,
-                                  .textures = WEIR_TEXTURES_LIGHT, .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID},
-                                  .triangles = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLIDS] =
+        EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
+               .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID}, .triangles = true, .tests_depth = true,
+               .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LENS, LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
@@ -93,8 +94,8 @@ static const Effect effects[WEIR_EFFECTS] = {
         EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE, .shared = {HOLLOWS}),
     [WEIR_EFFECT_HEIGHT] = EFFECT("height", space_height, .target = TARGET_THICKNESS,
                                   .shared = {LIQUID, LENS}, .particles = true, .adds = true),
-    [WEIR_EFFECT_CALM] = EFFECT("calm", space_calm, .target = TARGET_SMOOTH,
-                                .textures = WEIR_TEXTURES_SUMS, .shared = {LENS}),
+    [WEIR_EFFECT_CALM] =
+        EFFECT("calm", space_calm, .target = TARGET_SMOOTH, .textures = WEIR_TEXTURES_SUMS, .shared = {LENS}),
     [WEIR_EFFECT_CAUSTICS] = EFFECT("caustics", space_caustics, .target = TARGET_THICKNESS,
                                     .textures = WEIR_TEXTURES_HEIGHT, .shared = {LENS}, .adds = true),
     [WEIR_EFFECT_SURFACE] =
@@ -105,8 +106,9 @@ static const Effect effects[WEIR_EFFECTS] = {
                .shared = {LIQUID}, .particles = true, .adds = true),
     [WEIR_EFFECT_SMOOTH] = EFFECT("smooth", space_smooth, .target = TARGET_SMOOTH,
                                   .textures = WEIR_TEXTURES_SURFACE, .shared = {LIQUID}),
-    [WEIR_EFFECT_CLEAR_WATER] = EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR,
-                                       .textures = WEIR_TEXTURES_WATER, .shared = {LENS, LIGHT, HOLLOWS, LIQUID}),
+    [WEIR_EFFECT_CLEAR_WATER] =
+        EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR, .textures = WEIR_TEXTURES_WATER,
+               .shared = {LENS, LIGHT, HOLLOWS, LIQUID}),
     [WEIR_EFFECT_FRONT_EDGES] = EFFECT("front_edges", space_front_edges, .target = TARGET_COLOR,
                                        .textures = WEIR_TEXTURES_SURFACE, .shared = {EDGE}, .blends = true),
 };

@@ -34,8 +34,9 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_SCENE_FORMAT     WGPUTextureFormat_RGBA8Unorm   // its colours, sRGB
 #define WEIR_DEPTH_FORMAT     WGPUTextureFormat_Depth32Float // its depth, and the shadow map's
 #define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
-#define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float   // the water's depth, and its share of a pixel
-#define WEIR_THICKNESS_FORMAT WGPUTextureFormat_RGBA16Float // sums: of water and foam, m; of heights; of light
+#define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float // the water's depth, and its share of a pixel
+#define WEIR_THICKNESS_FORMAT                                                                                \
+    WGPUTextureFormat_RGBA16Float // sums: of water and foam, m; of heights; of light
 
 // What bind group 2 holds: nothing, or textures that effects in 3D read.
 typedef enum WeirTextures {

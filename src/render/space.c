@@ -15,8 +15,8 @@ static const WeirSpaceTexture bound[WEIR_TEXTURE_GROUPS][MOST_BOUND] = {
     [WEIR_TEXTURES_SURFACE] = {WEIR_SPACE_SURFACE, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_SURFACE_2] = {WEIR_SPACE_SURFACE_2, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_WATER] = {WEIR_SPACE_SHADOW, WEIR_SPACE_HEIGHT, WEIR_SPACE_CAUSTICS, WEIR_SPACE_SURFACE,
-                             WEIR_SPACE_THICKNESS, WEIR_SPACE_DEPTH, WEIR_SPACE_SAMPLES, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION,
-                             WEIR_SPACE_TEXTURES},
+                             WEIR_SPACE_THICKNESS, WEIR_SPACE_DEPTH, WEIR_SPACE_SAMPLES, WEIR_SPACE_COLOR,
+                             WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
 };
 
 // The groups of water need its textures.
@@ -211,8 +211,7 @@ static void draw_number(WeirRenderer *renderer, const WeirDrawing *drawing, Weir
     if (!(renderer->effects & 1u << kind)) return;
     WGPURenderPassColorAttachment color = cleared(renderer->space.views[texture]);
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        drawing->encoder,
-        &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
+        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
     weir_renderer_effect(renderer, pass, kind, textures, number, drawing);
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);

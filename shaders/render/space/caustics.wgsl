@@ -34,8 +34,11 @@ fn cell_size() -> vec2f {
 // Where the light through a cell of the surface meets the floor.
 fn landing(cell: vec2i) -> Landing {
     let height = height_at(cell);
-    let slope = vec2f(height_at(cell + vec2i(1, 0)) - height_at(cell - vec2i(1, 0)),
-                      height_at(cell + vec2i(0, 1)) - height_at(cell - vec2i(0, 1))) / (2.0 * cell_size());
+    let rise = vec2f(height_at(cell + vec2i(1, 0)) - height_at(cell - vec2i(1, 0)),
+                     height_at(cell + vec2i(0, 1)) - height_at(cell - vec2i(0, 1)));
+    // Water stands level along the walls, where the sums know its height least.
+    let from_wall = (0.5 * height_size - abs(vec2f(cell) + 0.5 - 0.5 * height_size)) * cell_size();
+    let slope = rise / (2.0 * cell_size()) * clamp(from_wall / (1.5 * frame.spacing) - 0.2, vec2f(0.0), vec2f(1.0));
     let normal = normalize(vec3f(-slope.x, 1.0, -slope.y));
     let ray = refract(-sun, normal, into_water);
     let way = height / max(-ray.y, 0.2);

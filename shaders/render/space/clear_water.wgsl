@@ -82,6 +82,11 @@ fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec3f {
     let jump_one = select(1e9, abs(one - depth), one > 0.0);
     let jump_other = select(1e9, abs(other - depth), other > 0.0);
     let place = vec2f(pixel) + 0.5;
+    // Where the surface goes on to both sides its mean slope: the lesser of two turns it to the eye.
+    if max(jump_one, jump_other) < 1.5 * frame.spacing * depth * depth / frame.near {
+        let ahead = pixel_ray(place + vec2f(axis)) * (frame.near / one);
+        return 0.5 * (ahead - pixel_ray(place - vec2f(axis)) * (frame.near / other));
+    }
     if min(jump_one, jump_other) > 1e8 { return pixel_ray(place + vec2f(axis)) * middle.z - middle; }
     if jump_one <= jump_other { return pixel_ray(place + vec2f(axis)) * (frame.near / one) - middle; }
     return middle - pixel_ray(place - vec2f(axis)) * (frame.near / other);
@@ -267,9 +272,9 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let through = seen_through(middle, ray, to_eye(bent), thickness.x, place);
     let lit = lit_roughly(point);
     var light = through.light + scattered(point, bent, through.way) * mix(0.7, 1.0, lit);
-    let foam = 1.0 - exp(-0.75 * thickness.y / frame.spacing);
+    let foam = 1.0 - exp(-0.95 * thickness.y / frame.spacing);
     let white = vec3f(0.94, 0.98, 1.00) * (0.60 + 0.55 * max(dot(normal, sun), 0.0)) * mix(0.6, 1.0, lit);
-    light = mix(light, white, 0.86 * foam);
+    light = mix(light, white, 0.94 * foam);
     let fresnel = 0.02 + 0.98 * pow(1.0 - facing, 5.0);
     var mirrored = reflect(direction, normal);
     // What the surface mirrors downwards meets the water once more and leaves it upwards: no dark specks at flat angles.

@@ -78,7 +78,7 @@ fn sky(direction: vec3f) -> vec3f {
     let side = 0.5 + 0.5 * dot(flat, glow_side);
     let glow = side * side * side;
     var light = mix(vec3f(0.026, 0.072, 0.185), mix(vec3f(0.125, 0.25, 0.46), vec3f(0.25, 0.36, 0.50), glow), exp(-3.6 * height));
-    light += vec3f(0.92, 0.46, 0.18) * (0.08 + 0.92 * glow) * exp(-11.0 * height);
+    light += vec3f(0.92, 0.46, 0.18) * (0.06 + 0.94 * glow) * exp(-7.0 * height);
     // Clouds on a ceiling, long across the glow; far ones melt into the haze.
     let place = direction.xz / (height + 0.10);
     let along = vec2f(dot(place, vec2f(-glow_side.y, glow_side.x)), 2.6 * dot(place, glow_side));
