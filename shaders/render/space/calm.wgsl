@@ -9,7 +9,7 @@ struct Pass {
     @location(0) @interpolate(flat) number: u32,
 }
 
-const calm_width = 1.0; // standard deviation of the kernel, spacings
+const calm_width = 0.8; // standard deviation of the kernel, spacings
 const calm_taps = 16;   // to each side
 
 @vertex

@@ -14,7 +14,7 @@ const sample_count = 4;
 const mirror_steps = 24;
 const least_mirrored_within = 0.25;
 const shaft_steps = 4;
-const scattering = 0.34; // of light in the water, as absorption is told
+const scattering = 0.26; // of light in the water, as absorption is told
 const least_mirrored = 0.035; // of the light: below, nobody sees what of the scene is in it
 
 @vertex
@@ -41,8 +41,8 @@ fn scene_color(pixel: vec2u) -> vec3f {
     return darkened(color, occlusion_at(occlusions, pixel, scene_ahead(pixel)));
 }
 
-// Linear light, between four pixels.
-fn scene_between(place: vec2f) -> vec3f {
+// The same between four pixels, not darkened.
+fn scene_undarkened(place: vec2f) -> vec3f {
     let last = frame.size - 1.0;
     let at = clamp(place - 0.5, vec2f(0.0), last);
     let corner = vec2u(at);
@@ -50,8 +50,13 @@ fn scene_between(place: vec2f) -> vec3f {
     let part = fract(at);
     let above = mix(textureLoad(colors, corner, 0).rgb, textureLoad(colors, vec2u(next.x, corner.y), 0).rgb, part.x);
     let below = mix(textureLoad(colors, vec2u(corner.x, next.y), 0).rgb, textureLoad(colors, next, 0).rgb, part.x);
+    return mix(above, below, part.y);
+}
+
+// Linear light, between four pixels.
+fn scene_between(place: vec2f) -> vec3f {
     let near = nearest_pixel(place);
-    return to_linear(darkened(mix(above, below, part.y), occlusion_at(occlusions, near, scene_ahead(near))));
+    return to_linear(darkened(scene_undarkened(place), occlusion_at(occlusions, near, scene_ahead(near))));
 }
 
 fn thickness_texel(at: vec2u) -> vec2f {
@@ -146,14 +151,21 @@ fn seen_at_side(point: vec3f, bent: vec3f, leaves: Leaving, beyond: Through) -> 
     let at_floor = leaves.normal.y > 0.5;
     let share = leaves.share * select(mirrored_within(abs(dot(bent, leaves.normal))), 1.0, at_floor);
     if share < 0.02 { return beyond; }
-    var foot = point + bent * leaves.way + reflect(bent, leaves.normal) * leaves.rest;
+    let back = reflect(bent, leaves.normal);
+    let foot = point + bent * leaves.way + back * leaves.rest;
     // Not the floor's outermost pixels, which are half something else.
     let edge = vec3f(max(0.3 * frame.spacing, 2.5 * frame.pixel_size * length(point - frame.eye.xyz)));
-    foot = clamp(foot, frame.domain_min.xyz + edge, frame.domain_max.xyz - edge);
-    let view = to_view(vec3f(foot.x, frame.domain_min.y, foot.z));
-    if view.z < frame.near { return beyond; }
     let way = leaves.way + leaves.rest;
-    let mirrored = scene_between(view_to_pixel(view)) * water_left(way);
+    // The mean over what a pixel sees of the floor, long where it comes flat, or its tiles would make a moire.
+    let stretch = back * (frame.pixel_size * (length(point - frame.eye.xyz) + way) / (3.0 * max(-back.y, 0.05)));
+    var sum = vec3f(0.0);
+    for (var k = -1; k <= 1; k++) {
+        let place = clamp(foot + f32(k) * stretch, frame.domain_min.xyz + edge, frame.domain_max.xyz - edge);
+        let view = to_view(vec3f(place.x, frame.domain_min.y, place.z));
+        if view.z < frame.near { return beyond; }
+        sum += scene_undarkened(view_to_pixel(view));
+    }
+    let mirrored = to_linear(sum / 3.0) * water_left(way);
     return Through(mix(beyond.light, mirrored, share), mix(beyond.way, way, share));
 }
 
@@ -247,7 +259,7 @@ fn scattered(point: vec3f, bent: vec3f, way: f32) -> vec3f {
         let passed = (f32(k) + 0.5) * part;
         sum += sunlight_at(point + bent * passed) * exp(-clear * passed) * water_left(passed);
     }
-    return vec3f(0.03, 0.30, 0.50) * sum * (1.0 - exp(-clear * part));
+    return vec3f(0.02, 0.27, 0.46) * sum * (1.0 - exp(-clear * part));
 }
 
 // Linear light of the water at a pixel.

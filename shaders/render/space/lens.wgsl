@@ -44,7 +44,7 @@ fn sun_in_water() -> vec3f {
 
 // Absorption of light on its way through the water: red goes first. Per metre in a domain of one metre; scenes of all
 // sizes show the same blue.
-const water_absorption = vec3f(0.95, 0.165, 0.085);
+const water_absorption = vec3f(1.25, 0.215, 0.105);
 
 fn water_left(way: f32) -> vec3f {
     return exp(-water_absorption * (frame.absorption * way));
