@@ -353,7 +353,7 @@ static double redness_of_sheet(WeirGpu *gpu, WeirSim *sim, float share, bool aga
 {
     enum { SIDE = 16 };
     WeirView view = view_of(WEIR_FLUID_WATER);
-    view.camera_pitch = 0.0f;
+    view.camera_pitch = 0.35f; // before the dark floor
     const WeirConstants *constants = weir_sim_constants(sim);
     int32_t coordinate[SIDE * SIDE][4];
     float motion[SIDE * SIDE][4] = {{0}};

@@ -38,7 +38,7 @@ fn landing(cell: vec2i) -> Landing {
                      height_at(cell + vec2i(0, 1)) - height_at(cell - vec2i(0, 1)));
     // Water stands level along the walls, where the sums know its height least.
     let from_wall = (0.5 * height_size - abs(vec2f(cell) + 0.5 - 0.5 * height_size)) * cell_size();
-    let slope = rise / (2.0 * cell_size()) * clamp(from_wall / (1.5 * frame.spacing) - 0.2, vec2f(0.0), vec2f(1.0));
+    let slope = rise / (2.0 * cell_size()) * clamp(from_wall / (2.4 * frame.spacing) - 0.5, vec2f(0.0), vec2f(1.0));
     let normal = normalize(vec3f(-slope.x, 1.0, -slope.y));
     let ray = refract(-sun, normal, into_water);
     let way = height / max(-ray.y, 0.2);
