@@ -23,7 +23,7 @@ fn height_at(cell: vec2i) -> f32 {
 }
 
 struct Landing {
-    foot: vec2f,   // on the floor, m from the domain's low corner
+    foot: vec2f, // on the floor, m from the domain's low corner
     light: vec3f,
 }
 

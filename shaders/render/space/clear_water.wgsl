@@ -1,5 +1,5 @@
-// clear_water: the water over the scene behind it: reflection of the room, refraction, absorption on the way through,
-// the lamp's highlight.
+// clear_water: the water over the scene behind it: reflection of the sky and of the sun, refraction, absorption and shafts
+// of light on the way through, the floor mirrored in the walls, foam.
 // in:  frame, light, surface (smoothed), thickness, the scene's depth, colours and occlusion
 // out: sRGB, every pixel; alpha 0 where compose is to smooth an edge
 
@@ -118,8 +118,8 @@ struct Through {
 // at steep ones than real glass, whose 0.08 would leave plain blue there).
 fn mirrored_within(cosine: f32) -> f32 {
     let beyond = 1.0 - (1.0 - cosine * cosine) / (into_water * into_water);
-    let leaving = sqrt(max(beyond, 0.0));
-    return select(1.0, least_mirrored_within + (1.0 - least_mirrored_within) * pow(1.0 - leaving, 5.0), beyond > 0.0);
+    let outside = sqrt(max(beyond, 0.0));
+    return select(1.0, least_mirrored_within + (1.0 - least_mirrored_within) * pow(1.0 - outside, 5.0), beyond > 0.0);
 }
 
 // Where a ray in the water leaves the domain, all in the world.

@@ -99,7 +99,8 @@ fn ground_fragment(ground: Ground) -> @location(0) vec4f {
         if frame.water != 0u { light *= water_left(way_through_water(ground.point)); }
         light += vec3f(0.20, 0.25, 0.32) * (1.0 - 0.45 * exp(-60.0 * away));
         color = stone * (1.0 - 0.45 * joints(0.2 * place, 0.014, 0.2 * pixel)) * light;
-        color += floor_gloss(direction) * sky(reflect(direction, vec3f(0.0, 1.0, 0.0)));
+        let gloss = floor_gloss(direction);
+        if gloss > 0.016 { color += gloss * sky(reflect(direction, vec3f(0.0, 1.0, 0.0))); } // close by, steep: none
     }
     let alpha = 1.0 - smoothstep(0.25, 0.95, from_middle);
     return vec4f(exposed(color) * alpha, alpha);

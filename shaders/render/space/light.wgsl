@@ -78,10 +78,11 @@ fn caustics_at(point: vec3f) -> vec3f {
 
 // Share of the sunlight that arrives at a point above the floor, which the water over it bends and absorbs.
 fn sunlight_at(point: vec3f) -> vec3f {
+    let place = on_floor(point);
+    if frame.water == 0u || any(place < vec2f(0.0)) || any(place > vec2f(1.0)) { return vec3f(1.0); }
     let height = point.y - frame.domain_min.y;
     let surface = water_height(point);
-    let place = on_floor(point);
-    if frame.water == 0u || surface <= height || any(place < vec2f(0.0)) || any(place > vec2f(1.0)) { return vec3f(1.0); }
+    if surface <= height { return vec3f(1.0); }
     let ray = sun_in_water();
     let rest = max(height, 0.0) / -ray.y; // to the floor, on which the waves have gathered the light most
     let gathered = min(caustics_at(point + ray * rest) / water_left(rest), vec3f(3.0));
