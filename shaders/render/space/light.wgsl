@@ -81,7 +81,7 @@ fn sunlight_at(point: vec3f) -> vec3f {
     let place = on_floor(point);
     if frame.water == 0u || any(place < vec2f(0.0)) || any(place > vec2f(1.0)) { return vec3f(1.0); }
     let height = point.y - frame.domain_min.y;
-    let surface = water_height(point);
+    let surface = height_texel(place * height_size); // smooth enough for light
     if surface <= height { return vec3f(1.0); }
     let ray = sun_in_water();
     let rest = max(height, 0.0) / -ray.y; // to the floor, on which the waves have gathered the light most
