@@ -47,6 +47,8 @@ struct Frame {
     water: u32,                  // 3D: 1 where the fluid is drawn as water
     spacing: f32,                // 3D: of the particles, m
     shapes: u32,                 // 3D: 1 where walls and bodies are drawn as shapes, not as particles
+    photon_columns: u32,         // 3D: caustics.wgsl
+    photon_rows: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -19,7 +19,9 @@ extern const char weir_wgsl_render_space_light[], weir_wgsl_render_space_gloss[]
 extern const char weir_wgsl_render_space_solid[], weir_wgsl_render_space_solids[];
 extern const char weir_wgsl_render_space_solid_shadow[], weir_wgsl_common_rotation[];
 extern const char weir_wgsl_render_space_hollows[], weir_wgsl_render_space_liquid[];
-extern const char weir_wgsl_render_space_shade[], weir_wgsl_render_space_surface[];
+extern const char weir_wgsl_render_space_lens[], weir_wgsl_render_space_height[];
+extern const char weir_wgsl_render_space_calm[], weir_wgsl_render_space_caustics[];
+extern const char weir_wgsl_render_space_surface[];
 extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
 extern const char weir_wgsl_render_space_clear_water[], weir_wgsl_render_space_front_edges[];
 
@@ -35,7 +37,7 @@ typedef enum Target {
     TARGETS,
 } Target;
 
-enum { SHARED = 4 };
+enum { SHARED = 5 };
 
 typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
@@ -53,6 +55,7 @@ typedef struct Effect {
 } Effect;
 
 #define SPHERE                   weir_wgsl_render_space_sphere
+#define LENS                     weir_wgsl_render_space_lens
 #define LIGHT                    weir_wgsl_render_space_light
 #define GLOSS                    weir_wgsl_render_space_gloss
 #define ROTATION                 weir_wgsl_common_rotation
@@ -74,13 +77,14 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LIGHT, LIQUID}, .blends = true, .tests_depth = true, .writes_depth = true),
-    [WEIR_EFFECT_SOLIDS] = EFFECT("solids", space_solids, .target = TARGET_SCENE,
-                                  .textures = WEIR_TEXTURES_LIGHT, .shared = {LIGHT, GLOSS, ROTATION, SOLID},
-                                  .triangles = true, .tests_depth = true, .writes_depth = true),
+               .shared = {LENS, LIGHT}, .blends = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLIDS] =
+        EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
+               .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID}, .triangles = true, .tests_depth = true,
+               .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
+               .shared = {LENS, LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
                .writes_depth = true, .covers = true),
     [WEIR_EFFECT_EDGES] = EFFECT("edges", space_edges, .target = TARGET_SCENE, .shared = {EDGE},
                                  .blends = true, .tests_depth = true),
@@ -88,8 +92,12 @@ static const Effect effects[WEIR_EFFECTS] = {
         EFFECT("occlusion", space_occlusion, .target = TARGET_OCCLUSION, .textures = WEIR_TEXTURES_DEPTH),
     [WEIR_EFFECT_COMPOSE] =
         EFFECT("compose", space_compose, .textures = WEIR_TEXTURES_COMPOSE, .shared = {HOLLOWS}),
-    [WEIR_EFFECT_SHADE] = EFFECT("shade", space_shade, .target = TARGET_THICKNESS, .shared = {LIQUID},
-                                 .particles = true, .adds = true),
+    [WEIR_EFFECT_HEIGHT] = EFFECT("height", space_height, .target = TARGET_THICKNESS,
+                                  .shared = {LIQUID, LENS}, .particles = true, .adds = true),
+    [WEIR_EFFECT_CALM] =
+        EFFECT("calm", space_calm, .target = TARGET_SMOOTH, .textures = WEIR_TEXTURES_SUMS, .shared = {LENS}),
+    [WEIR_EFFECT_CAUSTICS] = EFFECT("caustics", space_caustics, .target = TARGET_THICKNESS,
+                                    .textures = WEIR_TEXTURES_HEIGHT, .shared = {LENS}, .adds = true),
     [WEIR_EFFECT_SURFACE] =
         EFFECT("surface", space_surface, .target = TARGET_SURFACE, .shared = {SPHERE, LIQUID},
                .particles = true, .tests_depth = true, .writes_depth = true),
@@ -98,8 +106,9 @@ static const Effect effects[WEIR_EFFECTS] = {
                .shared = {LIQUID}, .particles = true, .adds = true),
     [WEIR_EFFECT_SMOOTH] = EFFECT("smooth", space_smooth, .target = TARGET_SMOOTH,
                                   .textures = WEIR_TEXTURES_SURFACE, .shared = {LIQUID}),
-    [WEIR_EFFECT_CLEAR_WATER] = EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR,
-                                       .textures = WEIR_TEXTURES_WATER, .shared = {LIGHT, HOLLOWS, LIQUID}),
+    [WEIR_EFFECT_CLEAR_WATER] =
+        EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR, .textures = WEIR_TEXTURES_WATER,
+               .shared = {LENS, LIGHT, HOLLOWS, LIQUID}),
     [WEIR_EFFECT_FRONT_EDGES] = EFFECT("front_edges", space_front_edges, .target = TARGET_COLOR,
                                        .textures = WEIR_TEXTURES_SURFACE, .shared = {EDGE}, .blends = true),
 };

@@ -19,7 +19,9 @@ typedef enum WeirEffectKind {
     WEIR_EFFECT_OCCLUSION,
     WEIR_EFFECT_COMPOSE,
     // Those of water in 3D alone:
-    WEIR_EFFECT_SHADE,
+    WEIR_EFFECT_HEIGHT,
+    WEIR_EFFECT_CALM,
+    WEIR_EFFECT_CAUSTICS,
     WEIR_EFFECT_SURFACE,
     WEIR_EFFECT_THICKNESS,
     WEIR_EFFECT_SMOOTH,
@@ -32,14 +34,18 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_SCENE_FORMAT     WGPUTextureFormat_RGBA8Unorm   // its colours, sRGB
 #define WEIR_DEPTH_FORMAT     WGPUTextureFormat_Depth32Float // its depth, and the shadow map's
 #define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
-#define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float   // the water's depth, and its share of a pixel
-#define WEIR_THICKNESS_FORMAT WGPUTextureFormat_RGBA16Float // of water and foam, m; added up
+#define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float // the water's depth, and its share of a pixel
+#define WEIR_THICKNESS_FORMAT                                                                                \
+    WGPUTextureFormat_RGBA16Float // sums: of water and foam, m; of heights; of light
 
 // What bind group 2 holds: nothing, or textures that effects in 3D read.
 typedef enum WeirTextures {
     WEIR_TEXTURES_NONE,
-    WEIR_TEXTURES_LIGHT,     // the shadow map and the water's shade
+    WEIR_TEXTURES_LIGHT,     // the shadow map, the water's height, its caustics
     WEIR_TEXTURES_DEPTH,     // the scene's depth
+    WEIR_TEXTURES_SUMS,      // the sums of its height
+    WEIR_TEXTURES_ROWS,      // the same smoothed along rows
+    WEIR_TEXTURES_HEIGHT,    // the water's height
     WEIR_TEXTURES_COMPOSE,   // depth, colour, occlusion
     WEIR_TEXTURES_FINISH,    // the same with the water's colour
     WEIR_TEXTURES_SURFACE,   // the water's surface

@@ -5,7 +5,7 @@
 #include "core/scene.h"
 #include "render/camera.h"
 
-// Towards the light, a unit vector; spheres.wgsl: sun.
+// Towards the light, a unit vector; space.wgsl: sun.
 static const float light_direction[3] = {-0.3496f, 0.8591f, 0.3737f};
 
 typedef struct Check {
@@ -160,6 +160,20 @@ static void fill_light(WeirFrame *frame)
     }
 }
 
+// Photons start on the texels of the map of the water's height, and beyond its sides towards the light as far as that
+// comes while it sinks, bent into the water, from two thirds of the domain's height.
+static void fill_photons(WeirFrame *frame, const float size[3])
+{
+    const float reach = 0.3f * size[1];
+    uint32_t count[2];
+    for (int k = 0; k < 2; k++) {
+        float share = fminf(reach / size[2 * k], 0.5f);
+        count[k] = WEIR_HEIGHT_SIZE + (uint32_t)ceilf(share * WEIR_HEIGHT_SIZE);
+    }
+    frame->photon_columns = count[0];
+    frame->photon_rows = count[1];
+}
+
 static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParameters *parameters,
                        uint32_t width, uint32_t height)
 {
@@ -187,6 +201,7 @@ static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParamet
     frame->absorption = 2.6f / size[1];
     frame->occlusion_radius = fmaxf(0.045f * cbrtf(size[0] * size[1] * size[2]), 3.0f * frame->sphere_radius);
     fill_light(frame);
+    fill_photons(frame, size);
 }
 
 static bool target_encodes(WGPUTextureFormat format)

@@ -9,7 +9,8 @@
 
 enum {
     WEIR_SHADOW_SIZE = 1024, // texels of the shadow map's side; space.wgsl: shadow_size
-    WEIR_SHADE_SIZE = 512,   // of the map of the water's shade
+    WEIR_HEIGHT_SIZE = 256,  // of the map of the water's height; lens.wgsl: height_size
+    WEIR_CAUSTICS_SIZE = 512,
 };
 
 // Copied byte by byte to `struct Frame` of shaders/render/frame.wgsl, which says what each field means.
@@ -33,7 +34,8 @@ typedef struct WeirFrame {
     uint32_t faint_sides, water;
     float spacing;
     uint32_t shapes;
-    uint32_t unused[3];
+    uint32_t photon_columns, photon_rows;
+    uint32_t unused;
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");

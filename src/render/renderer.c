@@ -79,7 +79,7 @@ static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, u
 {
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
     int first = dimension == 3 ? WEIR_EFFECT_SHADOW : WEIR_EFFECT_BACKGROUND;
-    int end = dimension == 3 ? WEIR_EFFECT_SHADE : WEIR_EFFECT_SHADOW;
+    int end = dimension == 3 ? WEIR_EFFECT_HEIGHT : WEIR_EFFECT_SHADOW;
     if (water) end = WEIR_EFFECTS;
     bool made = false;
     for (int kind = first; kind < end; kind++) {
@@ -207,10 +207,13 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     case WEIR_EFFECT_PARTICLES:
     case WEIR_EFFECT_SHADOW:
     case WEIR_EFFECT_SPHERES:
-    case WEIR_EFFECT_SHADE:
+    case WEIR_EFFECT_HEIGHT:
     case WEIR_EFFECT_SURFACE:
     case WEIR_EFFECT_THICKNESS:
         instances = drawing->particle_count;
+        break;
+    case WEIR_EFFECT_CAUSTICS:
+        instances = drawing->frame->photon_columns * drawing->frame->photon_rows;
         break;
     case WEIR_EFFECT_OVERLAY: // four sides of the outline, then the ring
         instances = drawing->frame->tool_radius > 0.0f ? 5 : 4;

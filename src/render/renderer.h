@@ -19,7 +19,10 @@ typedef enum WeirSpaceTexture {
     WEIR_SPACE_DEPTH,     // its depth, as many samples
     WEIR_SPACE_COLOR,     // its colours, one per pixel
     WEIR_SPACE_OCCLUSION, // half as wide and high
-    WEIR_SPACE_SHADE,     // water between the light and the floor
+    WEIR_SPACE_SUMS,      // of exponentials of the particles' heights
+    WEIR_SPACE_ROWS,      // heights, smoothed along rows
+    WEIR_SPACE_HEIGHT,    // of the water's surface over the floor
+    WEIR_SPACE_CAUSTICS,  // the light that it bends, on the floor
     // Those of water alone:
     WEIR_SPACE_SURFACE,       // its depth and its share of a pixel
     WEIR_SPACE_SURFACE_2,     // smoothing goes there and back

@@ -3,17 +3,20 @@
 #include "render/renderer.h"
 
 // What the effects' bind group 2 holds, binding by binding; ends with WEIR_SPACE_TEXTURES.
-enum { MOST_BOUND = 9 };
+enum { MOST_BOUND = 10 };
 static const WeirSpaceTexture bound[WEIR_TEXTURE_GROUPS][MOST_BOUND] = {
-    [WEIR_TEXTURES_LIGHT] = {WEIR_SPACE_SHADOW, WEIR_SPACE_SHADE, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_LIGHT] = {WEIR_SPACE_SHADOW, WEIR_SPACE_HEIGHT, WEIR_SPACE_CAUSTICS, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_DEPTH] = {WEIR_SPACE_DEPTH, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_SUMS] = {WEIR_SPACE_SUMS, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_ROWS] = {WEIR_SPACE_ROWS, WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_HEIGHT] = {WEIR_SPACE_HEIGHT, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_COMPOSE] = {WEIR_SPACE_DEPTH, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_FINISH] = {WEIR_SPACE_DEPTH, WEIR_SPACE_WATER, WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_SURFACE] = {WEIR_SPACE_SURFACE, WEIR_SPACE_TEXTURES},
     [WEIR_TEXTURES_SURFACE_2] = {WEIR_SPACE_SURFACE_2, WEIR_SPACE_TEXTURES},
-    [WEIR_TEXTURES_WATER] = {WEIR_SPACE_SHADOW, WEIR_SPACE_SHADE, WEIR_SPACE_SURFACE, WEIR_SPACE_THICKNESS,
-                             WEIR_SPACE_DEPTH, WEIR_SPACE_SAMPLES, WEIR_SPACE_COLOR, WEIR_SPACE_OCCLUSION,
-                             WEIR_SPACE_TEXTURES},
+    [WEIR_TEXTURES_WATER] = {WEIR_SPACE_SHADOW, WEIR_SPACE_HEIGHT, WEIR_SPACE_CAUSTICS, WEIR_SPACE_SURFACE,
+                             WEIR_SPACE_THICKNESS, WEIR_SPACE_DEPTH, WEIR_SPACE_SAMPLES, WEIR_SPACE_COLOR,
+                             WEIR_SPACE_OCCLUSION, WEIR_SPACE_TEXTURES},
 };
 
 // The groups of water need its textures.
@@ -90,7 +93,10 @@ static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width,
         [WEIR_SPACE_DEPTH] = {WEIR_DEPTH_FORMAT, read, width, height, WEIR_SCENE_SAMPLES},
         [WEIR_SPACE_COLOR] = {WEIR_SCENE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_OCCLUSION] = {WEIR_OCCLUSION_FORMAT, read, half[0], half[1], 1},
-        [WEIR_SPACE_SHADE] = {WEIR_THICKNESS_FORMAT, read, WEIR_SHADE_SIZE, WEIR_SHADE_SIZE, 1},
+        [WEIR_SPACE_SUMS] = {WEIR_THICKNESS_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
+        [WEIR_SPACE_ROWS] = {WEIR_SURFACE_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
+        [WEIR_SPACE_HEIGHT] = {WEIR_SURFACE_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
+        [WEIR_SPACE_CAUSTICS] = {WEIR_THICKNESS_FORMAT, read, WEIR_CAUSTICS_SIZE, WEIR_CAUSTICS_SIZE, 1},
         [WEIR_SPACE_SURFACE] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_SURFACE_2] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_SURFACE_DEPTH] = {WEIR_DEPTH_FORMAT, drawn, width, height, 1},
@@ -198,22 +204,27 @@ static void draw_into(WeirRenderer *renderer, const WeirDrawing *drawing, WeirSp
     draw_pass(renderer, drawing, &color, NULL, kind, kind);
 }
 
+// One of an effect's passes, which reads what the one before it made.
+static void draw_number(WeirRenderer *renderer, const WeirDrawing *drawing, WeirSpaceTexture texture,
+                        WeirEffectKind kind, WeirTextures textures, uint32_t number)
+{
+    if (!(renderer->effects & 1u << kind)) return;
+    WGPURenderPassColorAttachment color = cleared(renderer->space.views[texture]);
+    WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
+        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
+    weir_renderer_effect(renderer, pass, kind, textures, number, drawing);
+    wgpuRenderPassEncoderEnd(pass);
+    wgpuRenderPassEncoderRelease(pass);
+}
+
 // An even number of passes, so that the result lies where the surface was drawn.
 static void smooth_surface(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     enum { PASSES = 8 };
-    if (!(renderer->effects & 1u << WEIR_EFFECT_SMOOTH)) return;
     for (uint32_t k = 0; k < PASSES; k++) {
         bool back = k % 2;
-        WGPURenderPassColorAttachment color =
-            cleared(renderer->space.views[back ? WEIR_SPACE_SURFACE : WEIR_SPACE_SURFACE_2]);
-        WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-            drawing->encoder,
-            &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
-        weir_renderer_effect(renderer, pass, WEIR_EFFECT_SMOOTH,
-                             back ? WEIR_TEXTURES_SURFACE_2 : WEIR_TEXTURES_SURFACE, k, drawing);
-        wgpuRenderPassEncoderEnd(pass);
-        wgpuRenderPassEncoderRelease(pass);
+        draw_number(renderer, drawing, back ? WEIR_SPACE_SURFACE : WEIR_SPACE_SURFACE_2, WEIR_EFFECT_SMOOTH,
+                    back ? WEIR_TEXTURES_SURFACE_2 : WEIR_TEXTURES_SURFACE, k);
     }
 }
 
@@ -238,7 +249,12 @@ void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
         weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
     WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
     draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SOLID_SHADOW);
-    if (drawing->water) draw_into(renderer, drawing, WEIR_SPACE_SHADE, WEIR_EFFECT_SHADE);
+    if (drawing->water) {
+        draw_into(renderer, drawing, WEIR_SPACE_SUMS, WEIR_EFFECT_HEIGHT);
+        draw_number(renderer, drawing, WEIR_SPACE_ROWS, WEIR_EFFECT_CALM, WEIR_TEXTURES_SUMS, 0);
+        draw_number(renderer, drawing, WEIR_SPACE_HEIGHT, WEIR_EFFECT_CALM, WEIR_TEXTURES_ROWS, 1);
+        draw_into(renderer, drawing, WEIR_SPACE_CAUSTICS, WEIR_EFFECT_CAUSTICS);
+    }
     WGPURenderPassColorAttachment color = cleared(views[WEIR_SPACE_SAMPLES]);
     color.resolveTarget = views[WEIR_SPACE_COLOR];
     if (!drawing->water) color.storeOp = WGPUStoreOp_Discard;

@@ -268,8 +268,8 @@ static void no_fluid_no_water(void **state)
 {
     WeirSim *sim = pool(false);
     WeirView view = view_of(WEIR_FLUID_WATER);
-    const uint32_t water = 1u << WEIR_EFFECT_SHADE | 1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_THICKNESS |
-                           1u << WEIR_EFFECT_SMOOTH;
+    const uint32_t water = 1u << WEIR_EFFECT_HEIGHT | 1u << WEIR_EFFECT_SURFACE |
+                           1u << WEIR_EFFECT_THICKNESS | 1u << WEIR_EFFECT_SMOOTH;
     WeirImage empty, scene;
     draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &empty);
     draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all & ~water, &scene);
@@ -353,7 +353,7 @@ static double redness_of_sheet(WeirGpu *gpu, WeirSim *sim, float share, bool aga
 {
     enum { SIDE = 16 };
     WeirView view = view_of(WEIR_FLUID_WATER);
-    view.camera_pitch = 0.0f;
+    view.camera_pitch = 0.35f; // before the dark floor
     const WeirConstants *constants = weir_sim_constants(sim);
     int32_t coordinate[SIDE * SIDE][4];
     float motion[SIDE * SIDE][4] = {{0}};
@@ -388,6 +388,117 @@ static void a_sheet_that_moves_as_one_is_clear(void **state)
            torn = redness_of_sheet(*state, sim, 0.06f, true);
     if (!(fabs(one - still) < 12.0 && torn > one + 25.0))
         fail_msg("red at rest %g, moving %g, against itself %g", still, one, torn);
+    weir_sim_destroy(sim);
+}
+
+// A pool of a lattice of particles, 1 m long and wide and 0.4 m deep with waves of that share of its depth; none: no water.
+static void draw_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, const WeirView *view,
+                       uint32_t effects, WeirImage *image)
+{
+    enum { SIDE = 25, LAYERS = 10, COUNT = SIDE * SIDE * LAYERS };
+    const WeirConstants *constants = weir_sim_constants(sim);
+    int32_t(*coordinate)[4] = calloc(COUNT, sizeof *coordinate);
+    float(*motion)[4] = calloc(COUNT, sizeof *motion);
+    assert_true(coordinate && motion);
+    for (int i = 0; i < COUNT; i++) {
+        float place[3] = {0.04f * ((float)(i % SIDE) + 0.5f), 0.04f * ((float)(i / SIDE % LAYERS) + 0.5f),
+                          0.04f * ((float)(i / (SIDE * LAYERS)) + 0.5f)};
+        place[1] *= 1.0f + waves * cosf(4.0f * 3.14159265f * place[0]);
+        for (int k = 0; k < 3; k++)
+            coordinate[i][k] = (int32_t)lroundf((place[k] - constants->origin[k]) / constants->quantum);
+        coordinate[i][3] = (int32_t)(none ? WEIR_GROUP_EMPTY : WEIR_GROUP_FLUID);
+    }
+    WeirGpuParticles particles;
+    assert_true(weir_upload_arrays(gpu, coordinate, motion, COUNT, &particles));
+    draw_particles(gpu, sim, &particles, view, effects, image);
+    weir_upload_release(&particles);
+    free(coordinate);
+    free(motion);
+}
+
+// Linear light of a channel, before it was exposed (space.wgsl).
+static double light_of(uint8_t value)
+{
+    double s = value / 255.0, shown = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+    return shown < 0.5 ? shown : 0.5 - 0.5 * log(1.0 - (shown - 0.5) / 0.5);
+}
+
+// Of the ratio of two pictures' green light on the floor, but for `margin` at its edges.
+typedef struct Ratio {
+    double least, most, mean;
+} Ratio;
+
+static Ratio ratio_on_floor(const WeirImage *one, const WeirImage *other, const WeirView *view, float margin)
+{
+    enum { STEPS = 40 };
+    Ratio ratio = {1e9, 0.0, 0.0};
+    for (int k = 0; k < STEPS * STEPS; k++) {
+        float x = margin + (1.0f - 2.0f * margin) * ((float)(k % STEPS) + 0.5f) / STEPS,
+              z = margin + (1.0f - 2.0f * margin) * ((float)(k / STEPS) + 0.5f) / STEPS;
+        double part = light_of(pixel_at(one, view, x, 0, z)[1]) / light_of(pixel_at(other, view, x, 0, z)[1]);
+        ratio.least = fmin(ratio.least, part);
+        ratio.most = fmax(ratio.most, part);
+        ratio.mean += part / (STEPS * STEPS);
+    }
+    return ratio;
+}
+
+// The floor alone, from above: still water dims it evenly, up to the walls; waves gather the same light here and miss it
+// there.
+static void waves_gather_light_on_the_floor(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_pitch = 1.5f;
+    view.camera_target[1] = 0.0f;
+    const uint32_t seen = all & ~(1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_SPHERES |
+                                  1u << WEIR_EFFECT_OCCLUSION | 1u << WEIR_EFFECT_THICKNESS);
+    WeirImage dry, still, waves, again;
+    draw_waves(*state, sim, 0.0f, true, &view, seen, &dry);
+    draw_waves(*state, sim, 0.0f, false, &view, seen, &still);
+    draw_waves(*state, sim, 0.06f, false, &view, seen, &waves);
+    draw_waves(*state, sim, 0.06f, false, &view, seen, &again);
+    Ratio even = ratio_on_floor(&still, &dry, &view, 0.04f);
+    if (!(even.most < 0.97 && even.least > 0.85 * even.most))
+        fail_msg("still water leaves %g to %g of the light", even.least, even.most);
+    Ratio gathered = ratio_on_floor(&waves, &still, &view, 0.02f);
+    if (!(gathered.least < 0.9 && gathered.most > 1.25 && fabs(gathered.mean - 1.0) < 0.03))
+        fail_msg("waves leave %g to %g of it, %g in the mean", gathered.least, gathered.most, gathered.mean);
+    assert_memory_equal(waves.pixels, again.pixels, (size_t)4 * SIZE * SIZE);
+    weir_image_destroy(&dry);
+    weir_image_destroy(&still);
+    weir_image_destroy(&waves);
+    weir_image_destroy(&again);
+    weir_sim_destroy(sim);
+}
+
+// Mean red of a still pool's surface in its middle, seen from a direction.
+static double redness_of_pool(WeirGpu *gpu, WeirSim *sim, float yaw, float pitch)
+{
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    view.camera_yaw = yaw;
+    view.camera_pitch = pitch;
+    WeirImage image;
+    draw_waves(gpu, sim, 0.0f, false, &view, all, &image);
+    double sum = 0.0;
+    for (int k = 0; k < 25; k++)
+        sum += pixel_at(&image, &view, 0.4f + 0.05f * (float)(k % 5), 0.4f, 0.4f + 0.05f * (float)(k / 5))[0];
+    weir_image_destroy(&image);
+    return sum / 25.0;
+}
+
+// The horizon is golden at one side (space.wgsl: glow_side). Seen flat towards it the water mirrors that; not seen the
+// other way, nor from above.
+static void still_water_mirrors_the_horizon(void **state)
+{
+    const float toward_glow = 0.5236f, away = toward_glow + 3.14159265f;
+    WeirSim *sim = pool(false);
+    double golden = redness_of_pool(*state, sim, toward_glow, 0.1f),
+           blue = redness_of_pool(*state, sim, away, 0.1f),
+           above = redness_of_pool(*state, sim, toward_glow, 1.3f),
+           above_away = redness_of_pool(*state, sim, away, 1.3f);
+    if (!(golden > blue + 25.0 && golden > above + 25.0 && fabs(above - above_away) < 10.0))
+        fail_msg("red towards the glow %g, away %g; from above %g, %g", golden, blue, above, above_away);
     weir_sim_destroy(sim);
 }
 
@@ -449,6 +560,8 @@ int main(void)
         cmocka_unit_test(a_lonely_particle_is_a_drop),
         cmocka_unit_test(a_fast_drop_is_a_streak),
         cmocka_unit_test(a_sheet_that_moves_as_one_is_clear),
+        cmocka_unit_test(waves_gather_light_on_the_floor),
+        cmocka_unit_test(still_water_mirrors_the_horizon),
         cmocka_unit_test(styles_and_sizes_change),
         cmocka_unit_test(unknown_styles_are_refused),
     };

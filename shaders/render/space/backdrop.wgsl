@@ -1,4 +1,4 @@
-// backdrop: what lies behind everything.
+// backdrop: what lies behind everything: sky and, far away, floor.
 // in:  frame
 // out: every pixel, opaque
 
@@ -10,5 +10,6 @@ fn backdrop_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec
 @fragment
 fn backdrop_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let noise = (pixel_noise(vec2u(place.xy)) - 0.5) / 255.0;
-    return vec4f(backdrop(place.xy) + noise, 1.0);
+    let light = surroundings(normalize(to_world(pixel_ray(place.xy))));
+    return vec4f(exposed(light) + noise, 1.0);
 }

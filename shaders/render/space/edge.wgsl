@@ -44,6 +44,6 @@ fn edge_corner(vertex: u32, index: u32) -> Edge {
 // Premultiplied sRGB.
 fn edge_color(edge: Edge) -> vec4f {
     let away = abs(edge.side / edge.depth);
-    let alpha = 0.62 * clamp(0.6 * frame.line_scale + 0.5 - away, 0.0, 1.0);
-    return vec4f(line_color * alpha, alpha);
+    let alpha = 0.50 * clamp(0.6 * frame.line_scale + 0.5 - away, 0.0, 1.0);
+    return vec4f(vec3f(0.74, 0.90, 1.00) * alpha, alpha);
 }

@@ -1,5 +1,6 @@
-// ground: the floor under the domain, with a fine grid and the shadow of the fluid; it fades into the backdrop.
-// in:  frame, shadow map
+// ground: the floor: pale tiles in the domain under the light that the water bends, dark stone around it; it fades into
+// the backdrop.
+// in:  frame, light
 // out: premultiplied sRGB
 
 struct Ground {
@@ -7,6 +8,7 @@ struct Ground {
     @location(0) point: vec3f, // m
 }
 
+const pool_rim = 0.003;  // of the domain's larger side: the tiles reach so far beyond the domain
 const ground_reach = 2.6; // times the domain's larger side, from its middle
 
 fn ground_extent() -> f32 {
@@ -26,38 +28,50 @@ fn ground_vertex(@builtin(vertex_index) vertex: u32) -> Ground {
     return ground;
 }
 
-// Coverage of lines `spacing` apart, whose width is about a pixel.
-fn grid_lines(point: vec2f, spacing: f32) -> f32 {
-    let place = point / spacing;
-    let width = fwidth(place);
-    let away = abs(fract(place + 0.5) - 0.5) / max(width, vec2f(1e-6));
-    let line = clamp(1.0 - away, vec2f(0.0), vec2f(1.0)) * clamp(0.5 / width - 1.0, vec2f(0.0), vec2f(1.0));
-    return max(line.x, line.y);
+// Integral of a row of lines from 0 on: one per unit, each `width` wide.
+fn lines_until(place: vec2f, width: f32) -> vec2f {
+    return floor(place) * width + min(fract(place), vec2f(width));
 }
 
-// How much the waves above gather the light at a point of the floor, 1 without waves: rays bend by a quarter of the
-// surface's slope, so their density follows from its curvature.
-fn focus(point: vec3f) -> f32 {
-    let texel = 2.0 / (length(frame.light_rows[0].xyz) * f32(textureDimensions(shade_map).x));
-    let step = max(3.5 * frame.spacing, 12.0 * texel);
-    let middle = shade_at(point);
-    var sum = 0.0;
-    for (var k = 0u; k < 8u; k++) {
-        let angle = 0.78539816 * f32(k);
-        sum += shade_at(point + vec3f(cos(angle), 0.0, sin(angle)) * step);
+// Share of a pixel that the joints of square tiles cover, `width` of a tile wide: exact along each axis, so that they fade
+// to their mean far off.
+fn joints(place: vec2f, width: f32, pixel: vec2f) -> f32 {
+    let low = place + 0.5 * width;
+    let share = (lines_until(low + 0.5 * pixel, width) - lines_until(low - 0.5 * pixel, width)) / pixel;
+    return 1.0 - (1.0 - share.x) * (1.0 - share.y);
+}
+
+// What makes one tile differ from the next, -1 to 1; nothing where tiles are smaller than a pixel.
+fn tile_variation(place: vec2f, pixel: vec2f) -> f32 {
+    let tile = vec2u(vec2i(floor(place)) + 32768);
+    return (2.0 * pixel_noise(tile) - 1.0) * clamp(1.5 - 3.0 * max(pixel.x, pixel.y), 0.0, 1.0);
+}
+
+// Light's way to a point of the floor beside the domain through the water in it.
+fn way_through_water(point: vec3f) -> f32 {
+    let one = (frame.domain_min.xyz - point) / sun;
+    let other = (frame.domain_max.xyz - point) / sun;
+    let near = min(one, other);
+    let far = max(one, other);
+    let enter = max(max(near.x, near.z), 0.0);
+    let leave = min(min(far.x, far.z), far.y);
+    if leave <= enter { return 0.0; }
+    let part = (leave - enter) / 6.0;
+    var way = 0.0;
+    for (var k = 0; k < 6; k++) {
+        let place = point + sun * (enter + (f32(k) + 0.5) * part);
+        let below = water_height(place) - (place.y - frame.domain_min.y);
+        way += part * clamp(below / (part * sun.y) + 0.5, 0.0, 1.0);
     }
-    let curvature = (0.5 * sum - 4.0 * middle) / (step * step);
-    // Not where the water ends at a side of the domain: that is no wave.
-    let inside = min(point.xz - frame.domain_min.xz, frame.domain_max.xz - point.xz) / (6.0 * frame.spacing);
-    let share = smoothstep(0.2, 1.0, min(inside.x, inside.y));
-    return mix(1.0, clamp(1.0 / max(1.0 + 0.22 * middle * curvature, 0.3), 0.7, 1.8), share);
+    return way;
 }
 
-// Under water a floor of pale stone, which shows how the water bends and colours what is behind it.
-fn pale_floor(point: vec3f, lamp: f32, inside: f32, lines: f32, lit: f32) -> vec3f {
-    let spot = lamp * lamp;
-    let stone = vec3f(0.008, 0.013, 0.023) + spot * vec3f(0.060, 0.082, 0.110) + inside * vec3f(0.235, 0.310, 0.360);
-    return stone * (1.0 - 1.6 * lines) * lit * water_left(0.7 * shade_at(point)) * focus(point);
+// Sunlight and skylight that reach the floor in the domain, through the water there.
+fn light_in_pool(point: vec3f, lit: f32) -> vec3f {
+    let sky_light = vec3f(0.33, 0.42, 0.52);
+    if frame.water == 0u { return sunlight * sun.y * lit + sky_light; }
+    let inside = clamp(point, frame.domain_min.xyz, frame.domain_max.xyz);
+    return sunlight * sun.y * lit * caustics_at(inside) + sky_light * water_left(1.2 * water_height(inside));
 }
 
 @fragment
@@ -65,18 +79,29 @@ fn ground_fragment(ground: Ground) -> @location(0) vec4f {
     if frame.eye.y < ground.point.y { discard; } // from below one looks through it
     let side = frame.domain_max.xz - frame.domain_min.xz;
     let middle = 0.5 * (frame.domain_min.xz + frame.domain_max.xz);
-    // A grid of round lengths, some ten lines along the longer side.
+    // Tiles of round lengths, some thirty along the longer side; five times as large outside.
     let decade = pow(10.0, floor(log(max(side.x, side.y)) / log(10.0) - 0.3));
-    let lines = 0.22 * grid_lines(ground.point.xz - frame.domain_min.xz, decade)
-        + 0.09 * grid_lines(ground.point.xz - frame.domain_min.xz, 0.2 * decade);
+    let place = (ground.point.xz - frame.domain_min.xz) / (0.1 * decade);
+    let pixel = max(fwidth(place), vec2f(1e-4));
     let from_middle = length(ground.point.xz - middle) / ground_extent();
-    let outside = abs(ground.point.xz - middle) - 0.5 * side;
-    let inside = 1.0 - smoothstep(-0.004, 0.004, max(outside.x, outside.y) / max(side.x, side.y));
-    let lamp = exp(-16.0 * from_middle * from_middle);
-    let lit = mix(0.34, 1.0, lit_share(ground.point));
-    var color = (vec3f(0.0065, 0.0100, 0.0180) + lamp * vec3f(0.019, 0.028, 0.044) + inside * vec3f(0.007, 0.012, 0.019)) * lit
-        + 0.085 * lines * vec3f(1.0, 1.5, 2.2) * mix(0.5, 1.0, lit) * lamp;
-    if frame.water != 0u { color = pale_floor(ground.point, lamp, inside, lines, lit); }
+    let around = abs(ground.point.xz - middle) - 0.5 * side;
+    let away = max(around.x, around.y) / max(side.x, side.y);
+    let lit = lit_share(ground.point);
+    let direction = normalize(ground.point - frame.eye.xyz);
+    var color: vec3f;
+    if away < pool_rim {
+        let tile = vec3f(0.43, 0.50, 0.53) * (1.0 + 0.16 * tile_variation(place, pixel));
+        color = mix(tile, vec3f(0.15, 0.20, 0.23), joints(place, 0.055, pixel)) * light_in_pool(ground.point, lit);
+    } else {
+        let stone = vec3f(0.100, 0.135, 0.185) * (1.0 + 0.13 * tile_variation(0.2 * place, 0.2 * pixel));
+        let lamp = exp(-14.0 * from_middle * from_middle);
+        var light = sunlight * sun.y * mix(0.25, 1.0, lamp) * lit;
+        if frame.water != 0u { light *= water_left(way_through_water(ground.point)); }
+        light += vec3f(0.20, 0.25, 0.32) * (1.0 - 0.45 * exp(-60.0 * away));
+        color = stone * (1.0 - 0.45 * joints(0.2 * place, 0.014, 0.2 * pixel)) * light;
+        let gloss = floor_gloss(direction);
+        if gloss > 0.016 { color += gloss * sky(reflect(direction, vec3f(0.0, 1.0, 0.0))); } // close by, steep: none
+    }
     let alpha = 1.0 - smoothstep(0.25, 0.95, from_middle);
-    return vec4f(to_srgb(color) * alpha, alpha);
+    return vec4f(exposed(color) * alpha, alpha);
 }

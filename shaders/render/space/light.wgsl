@@ -1,9 +1,8 @@
 // Shared by the effects that light reaches: what the shadow map says, and the water that the light came through.
 
 @group(2) @binding(0) var shadow_map: texture_depth_2d;
-@group(2) @binding(1) var shade_map: texture_2d<f32>; // length of light's way through water, m
-
-const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
+@group(2) @binding(1) var height_map: texture_2d<f32>;   // calm.wgsl
+@group(2) @binding(2) var caustics_map: texture_2d<f32>; // caustics.wgsl
 
 // Share of the light that reaches a point: the mean over 6 x 6 texels, `stride` apart.
 fn lit_share_within(point: vec3f, stride: f32) -> f32 {
@@ -47,17 +46,45 @@ fn lit_roughly(point: vec3f) -> f32 {
     return lit;
 }
 
-fn shade_texel(at: vec2f) -> f32 {
-    let last = vec2f(textureDimensions(shade_map)) - 1.0;
-    return dot(textureLoad(shade_map, vec2u(clamp(at, vec2f(0.0), last)), 0), vec4f(1.0));
+fn height_texel(at: vec2f) -> f32 {
+    let last = vec2f(textureDimensions(height_map)) - 1.0;
+    return textureLoad(height_map, vec2u(clamp(at, vec2f(0.0), last)), 0).x;
 }
 
-// Way of the light through water to a point under all of it, between four texels.
-fn shade_at(point: vec3f) -> f32 {
-    let place = (to_light(point).xy * vec2f(0.5, -0.5) + 0.5) * vec2f(textureDimensions(shade_map)) - 0.5;
+// Height of the water's surface above the domain's bottom at a place, between four texels, m.
+fn water_height(point: vec3f) -> f32 {
+    let place = on_floor(point) * vec2f(textureDimensions(height_map)) - 0.5;
     let corner = floor(place);
     let part = place - corner;
-    let above = mix(shade_texel(corner), shade_texel(corner + vec2f(1.0, 0.0)), part.x);
-    let below = mix(shade_texel(corner + vec2f(0.0, 1.0)), shade_texel(corner + 1.0), part.x);
+    let above = mix(height_texel(corner), height_texel(corner + vec2f(1.0, 0.0)), part.x);
+    let below = mix(height_texel(corner + vec2f(0.0, 1.0)), height_texel(corner + 1.0), part.x);
     return mix(above, below, part.y);
+}
+
+fn caustics_texel(at: vec2f) -> vec3f {
+    let last = vec2f(textureDimensions(caustics_map)) - 1.0;
+    return textureLoad(caustics_map, vec2u(clamp(at, vec2f(0.0), last)), 0).rgb;
+}
+
+// Sunlight on the floor under the water, 1 where nothing has bent or absorbed it; between four texels.
+fn caustics_at(point: vec3f) -> vec3f {
+    let place = on_floor(point) * vec2f(textureDimensions(caustics_map)) - 0.5;
+    let corner = floor(place);
+    let part = place - corner;
+    let above = mix(caustics_texel(corner), caustics_texel(corner + vec2f(1.0, 0.0)), part.x);
+    let below = mix(caustics_texel(corner + vec2f(0.0, 1.0)), caustics_texel(corner + 1.0), part.x);
+    return mix(above, below, part.y);
+}
+
+// Share of the sunlight that arrives at a point above the floor, which the water over it bends and absorbs.
+fn sunlight_at(point: vec3f) -> vec3f {
+    let place = on_floor(point);
+    if frame.water == 0u || any(place < vec2f(0.0)) || any(place > vec2f(1.0)) { return vec3f(1.0); }
+    let height = point.y - frame.domain_min.y;
+    let surface = height_texel(place * height_size); // smooth enough for light
+    if surface <= height { return vec3f(1.0); }
+    let ray = sun_in_water();
+    let rest = max(height, 0.0) / -ray.y; // to the floor, on which the waves have gathered the light most
+    let gathered = min(caustics_at(point + ray * rest) / water_left(rest), vec3f(3.0));
+    return mix(water_left((surface - height) / -ray.y), gathered, 1.0 - clamp(height / surface, 0.0, 1.0));
 }

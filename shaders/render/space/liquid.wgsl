@@ -24,10 +24,6 @@ const surface_radius = 1.0;   // of the spheres whose union is smoothed, spacing
 const drop_radius = 0.28;     // of drops that fly free, spacings
 const thickness_radius = 1.7; // of the blobs that are summed up, spacings
 
-// Absorption of light on its way through the water: red goes first. Per metre in a domain of one metre; scenes of all
-// sizes show the same blue.
-const water_absorption = vec3f(0.92, 0.20, 0.105);
-
 // A blob that is summed up falls off with (1 - r^2)^2, which integrates to pi / 3 over a disc of radius 1. Its height in the
 // middle, m, if it holds one particle's volume over an ellipse of the radii a and b, m.
 fn blob_peak(a: f32, b: f32) -> f32 {
@@ -52,8 +48,4 @@ fn pack_shares(shares: vec2f) -> f32 {
 fn unpack_shares(packed: f32) -> vec2f {
     let second = floor(packed * 0.5);
     return vec2f(packed - 2.0 * second, second / 1000.0);
-}
-
-fn water_left(way: f32) -> vec3f {
-    return exp(-water_absorption * (frame.absorption * way));
 }

@@ -28,5 +28,5 @@ fn solids_fragment(face: Face) -> @location(0) vec4f {
     // The shadow map knows the face itself too, as steps of a texel: looked up from as far before it as those reach.
     let texel = 2.0 / (shadow_size * length(frame.light_rows[0].xyz));
     let lit = lit_share_within(face.point + normal * (4.0 * texel), 1.0) * smoothstep(-0.05, 0.15, dot(normal, sun));
-    return vec4f(to_srgb(shade(face.color, 0.30, normal, view, mix(0.25, 1.0, lit))), 1.0);
+    return vec4f(exposed(shade(face.color, 0.30, normal, view, mix(0.25, 1.0, lit) * sunlight_at(face.point))), 1.0);
 }

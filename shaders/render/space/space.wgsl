@@ -48,18 +48,59 @@ fn light_texel(light: vec3f) -> vec2f {
     return (light.xy * vec2f(0.5, -0.5) + 0.5) * shadow_size;
 }
 
-// Linear light of the surroundings in a direction: a soft box of light above, dark blue below.
-fn surroundings(direction: vec3f) -> vec3f {
-    let height = direction.y;
-    let sky = mix(vec3f(0.06, 0.10, 0.18), vec3f(0.42, 0.56, 0.78), smoothstep(-0.1, 0.95, height));
-    let box = smoothstep(0.72, 0.95, height) * vec3f(0.75, 0.78, 0.80);
-    return select(sky + box, vec3f(0.030, 0.042, 0.065) * (1.0 + max(height, -1.0)), height < -0.1);
+const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light_direction
+const sunlight = vec3f(1.38, 1.24, 1.06);    // linear light of a white surface that faces it
+
+// Linear light as a picture shows it: what is too bright for it comes near to white slowly.
+fn exposed(light: vec3f) -> vec3f {
+    let over = max(light - 0.5, vec3f(0.0));
+    return to_srgb(min(light, vec3f(0.5)) + 0.5 * (1.0 - exp(-2.0 * over)));
 }
 
-// Behind everything, sRGB: a dark room with a glow at the height of the horizon.
-fn backdrop(pixel: vec2f) -> vec3f {
-    let uv = pixel / frame.size;
-    let from_middle = (uv - vec2f(0.5, 0.46)) * vec2f(1.0, 1.15);
-    let glow = exp(-4.2 * dot(from_middle, from_middle));
-    return mix(vec3f(0.020, 0.028, 0.052), vec3f(0.086, 0.128, 0.205), glow);
+// Noise without steps, 0 to 1, one bump per unit.
+fn smooth_noise(place: vec2f) -> f32 {
+    let corner = floor(place);
+    let part = fract(place);
+    let share = part * part * (3.0 - 2.0 * part);
+    let cell = vec2u(vec2i(corner) + 32768);
+    let low = mix(pixel_noise(cell), pixel_noise(cell + vec2u(1u, 0u)), share.x);
+    let high = mix(pixel_noise(cell + vec2u(0u, 1u)), pixel_noise(cell + 1u), share.x);
+    return mix(low, high, share.y);
+}
+
+const glow_side = vec2f(-0.50, -0.866); // of the horizon, x and z
+
+// Linear light of the sky, `direction` upwards: an evening, deep blue above and golden at one side of the horizon, with
+// thin clouds.
+fn sky(direction: vec3f) -> vec3f {
+    let height = max(direction.y, 0.0);
+    let flat = direction.xz * inverseSqrt(max(dot(direction.xz, direction.xz), 1e-6));
+    let side = 0.5 + 0.5 * dot(flat, glow_side);
+    let glow = side * side * side;
+    var light = mix(vec3f(0.026, 0.072, 0.185), mix(vec3f(0.125, 0.25, 0.46), vec3f(0.25, 0.36, 0.50), glow), exp(-3.6 * height));
+    light += vec3f(0.92, 0.46, 0.18) * (0.06 + 0.94 * glow) * exp(-7.0 * height);
+    // Clouds on a ceiling, long across the glow; far ones melt into the haze.
+    let place = direction.xz / (height + 0.10);
+    let along = vec2f(dot(place, vec2f(-glow_side.y, glow_side.x)), 2.6 * dot(place, glow_side));
+    let cloud = 0.62 * smooth_noise(0.75 * along + 7.3) + 0.38 * smooth_noise(1.9 * along + 3.1);
+    light += mix(vec3f(0.19, 0.24, 0.34), vec3f(0.72, 0.44, 0.30), glow * exp(-3.0 * height))
+        * (smoothstep(0.48, 0.85, cloud) * smoothstep(0.02, 0.22, height));
+    let from_sun = max(dot(direction, sun), 0.0);
+    return light + sunlight * (0.30 * pow(from_sun, 14.0) + 2.4 * smoothstep(0.978, 0.992, from_sun));
+}
+
+const floor_tone = vec3f(0.038, 0.056, 0.086); // of the light on it
+
+// The floor's share of the light that comes from the sky as from a polished stone, seen along `direction`.
+fn floor_gloss(direction: vec3f) -> f32 {
+    let facing = clamp(-direction.y, 0.0, 1.0);
+    return 0.012 + 0.95 * pow(1.0 - facing, 20.0);
+}
+
+// Linear light of what lies around, in a direction: the sky, the floor far away.
+fn surroundings(direction: vec3f) -> vec3f {
+    let up = vec3f(direction.x, abs(direction.y), direction.z);
+    let light = sky(up);
+    if direction.y >= 0.0 { return light; }
+    return mix(floor_tone * 0.8, light, floor_gloss(direction));
 }

@@ -54,12 +54,14 @@ fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) p
 
 const of_drop = 2.0; // its gloss
 
-// Linear light of a drop of water: a lens that shows the light room above at its lower side, and mirrors it at its rim.
+// Linear light of a drop of water: a ball of glass, in which what lies behind it is upside down, and a mirror at its rim.
 fn drop_color(normal: vec3f, view: vec3f, light: f32) -> vec3f {
-    let lens = mix(vec3f(0.17, 0.27, 0.33), vec3f(0.60, 0.74, 0.82), smoothstep(-0.7, 0.8, -normal.y));
-    let shine = pow(max(dot(normal, normalize(sun + view)), 0.0), 60.0);
+    let within = refract(-view, normal, 0.752);
+    let behind = refract(within, 2.0 * dot(within, normal) * within - normal, 1.33);
+    let lens = vec3f(0.16, 0.24, 0.28) + 0.7 * surroundings(behind);
+    let shine = pow(max(dot(normal, normalize(sun + view)), 0.0), 90.0);
     let fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(normal, view), 0.0, 1.0), 5.0);
-    return lens * mix(0.6, 1.0, light) + fresnel * surroundings(reflect(-view, normal)) + 1.6 * shine * light;
+    return lens * mix(0.6, 1.0, light) + fresnel * surroundings(reflect(-view, normal)) + 0.9 * shine * light;
 }
 
 struct Seen {
@@ -83,9 +85,9 @@ fn spheres_fragment(sphere: Sphere) -> Seen {
     if sphere.color.a == of_drop {
         color = drop_color(normal, -to_world(ray), sphere.light);
     } else {
-        color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), sphere.light);
+        color = shade(sphere.color.rgb, sphere.color.a, normal, -to_world(ray), vec3f(sphere.light));
     }
-    seen.color = vec4f(to_srgb(color), coverage);
+    seen.color = vec4f(exposed(color), coverage);
     seen.depth = frame.near / place.z;
     return seen;
 }

@@ -8,7 +8,7 @@ struct Blob {
     @builtin(position) place: vec4f,
     @location(0) offset: vec2f,                  // from the centre, radii
     @location(1) @interpolate(flat) peak: vec4f, // m
-    @location(2) @interpolate(flat) ahead: f32,  // m
+    @location(2) @interpolate(flat) look: vec2f, // m ahead; of the bubbles
 }
 
 @vertex
@@ -24,16 +24,26 @@ fn thickness_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index)
     blob.offset = corner;
     let peak = blob_peak(radius, radius);
     blob.peak = vec4f(spread_out(particle % 3u, peak).xyz, peak * foam_share(particle));
-    blob.ahead = center.z;
+    blob.look = vec2f(center.z, f32(particle % 4096u));
     return blob;
+}
+
+// How much foam there is at a place of a particle: round bubbles of many sizes, about 1 in the mean.
+fn bubbles(offset: vec2f, particle: f32) -> f32 {
+    let turn = vec2f(cos(particle), sin(particle));
+    let place = 3.4 * vec2f(dot(offset, turn), offset.x * turn.y - offset.y * turn.x) + 64.0;
+    let cell = vec2u(floor(place)) + vec2u(u32(particle), 0u);
+    let size = 0.12 + 0.36 * pixel_noise(cell);
+    let middle = 0.5 + (0.5 - size) * (2.0 * vec2f(pixel_noise(cell + 4096u), pixel_noise(cell + 8192u)) - 1.0);
+    return 0.60 + 3.6 * (1.0 - smoothstep(0.5 * size, size, length(fract(place) - middle)));
 }
 
 @fragment
 fn thickness_fragment(blob: Blob) -> @location(0) vec4f {
     let pixel = min(2.0 * blob.place.xy, frame.size - 0.5);
     let behind = frame.near / max(textureLoad(depths, vec2u(pixel), 0), 1e-6);
-    let before = clamp((behind - blob.ahead) / frame.spacing + 0.5, 0.0, 1.0);
-    // Foam keeps to its particle, narrower than the water: else it looks like wool.
+    let before = clamp((behind - blob.look.x) / frame.spacing + 0.5, 0.0, 1.0);
+    // Foam keeps to its particle, narrower than the water, and consists of bubbles: else it looks like wool.
     let share = blob_share(blob.offset);
-    return blob.peak * vec4f(vec3f(share), 1.8 * share * share) * before;
+    return blob.peak * vec4f(vec3f(share), 1.8 * share * share * bubbles(blob.offset, blob.look.y)) * before;
 }
