@@ -112,7 +112,9 @@ fn flat_solids_fragment(found: Patch) -> @location(0) vec4f {
     let bevel = 1.0 - smoothstep(0.0, 1.0, -distance / bevel_width);
     let lit = dot(outward, normalize(vec2f(-0.5, 0.9)));
     let rim = clamp(1.0 + (distance + 0.5) / (1.2 * frame.line_scale), 0.0, 1.0);
-    var color = found.color * mark(found);
+    // Its middle is a little darker than its edge.
+    let core = 1.0 - exp(min(distance, 0.0) / (28.0 * frame.line_scale));
+    var color = found.color * mark(found) * (1.0 - 0.16 * core);
     color *= 1.0 + bevel * (0.24 * lit - 0.06) - rim * (0.22 - 0.12 * lit);
     let away = clamp(1.0 - distance / (shade_width * frame.line_scale), 0.0, 1.0);
     let shade = 0.34 * away * away * away;

@@ -12,30 +12,33 @@ fn liquid_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f
     return vec4f(f32(vertex & 1u) * 4.0 - 1.0, f32(vertex >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-struct Around {
-    sums: vec4f, // weight, way to the particles, weight of the fluid
-    value: f32,
+// Its four texels around a pixel, and how far between them that is.
+struct Between {
+    corner: vec2i,
+    part: vec2f,
 }
 
-fn add(a: Around, b: Around, flip: vec2f) -> Around {
-    return Around(a.sums + b.sums * vec4f(1.0, flip, 1.0), a.value + b.value);
-}
-
-// Between four texels.
-fn read_field(pixel: vec2f) -> Around {
-    let last = vec2i(textureDimensions(field)) - 1;
+fn between(pixel: vec2f) -> Between {
     let place = pixel / f32(frame.field_texel) - 0.5;
-    let corner = vec2i(floor(place));
-    let part = place - floor(place);
-    var found = Around(vec4f(0.0), 0.0);
-    for (var k = 0; k < 4; k++) {
-        let next = vec2i(k & 1, k >> 1);
-        let texel = clamp(corner + next, vec2i(0), last);
-        let share = select(1.0 - part, part, next == vec2i(1));
-        found.sums += share.x * share.y * textureLoad(field, texel, 0);
-        found.value += share.x * share.y * textureLoad(values, texel, 0).x;
-    }
-    return found;
+    return Between(vec2i(floor(place)), place - floor(place));
+}
+
+fn texel_at(corner: vec2i) -> vec2i {
+    return clamp(corner, vec2i(0), vec2i(textureDimensions(field)) - 1);
+}
+
+fn read_field(pixel: vec2f) -> vec4f {
+    let at = between(pixel);
+    let above = mix(textureLoad(field, texel_at(at.corner), 0), textureLoad(field, texel_at(at.corner + vec2i(1, 0)), 0), at.part.x);
+    let below = mix(textureLoad(field, texel_at(at.corner + vec2i(0, 1)), 0), textureLoad(field, texel_at(at.corner + 1), 0), at.part.x);
+    return mix(above, below, at.part.y);
+}
+
+fn read_value(pixel: vec2f) -> f32 {
+    let at = between(pixel);
+    let above = mix(textureLoad(values, texel_at(at.corner), 0).x, textureLoad(values, texel_at(at.corner + vec2i(1, 0)), 0).x, at.part.x);
+    let below = mix(textureLoad(values, texel_at(at.corner + vec2i(0, 1)), 0).x, textureLoad(values, texel_at(at.corner + 1), 0).x, at.part.x);
+    return mix(above, below, at.part.y);
 }
 
 // Where the field goes on beyond the domain's sides along an axis: pixel there, and 1 if as a mirror, 2 if as it is; 0
@@ -52,20 +55,41 @@ fn beyond(pixel: f32, low: f32, high: f32, bits: u32, is_periodic: bool) -> vec2
     return vec2f(0.0);
 }
 
-fn around(pixel: vec2f) -> Around {
-    var found = read_field(pixel);
-    if frame.fold == 0u { return found; }
+// Where else the water around a pixel is, along x and along y.
+struct Folds {
+    x: vec2f,
+    y: vec2f,
+}
+
+fn folds_of(pixel: vec2f) -> Folds {
+    if frame.fold == 0u { return Folds(vec2f(0.0), vec2f(0.0)); }
     let low = to_pixels(frame.domain_min.xy);
     let high = to_pixels(frame.domain_max.xy);
-    let x = beyond(pixel.x, low.x, high.x, frame.fold & 3u, (frame.fold & 16u) != 0u);
     // Down is the other way.
     let sides = ((frame.fold >> 3u) & 1u) | ((frame.fold >> 1u) & 2u);
-    let y = beyond(pixel.y, high.y, low.y, sides, (frame.fold & 32u) != 0u);
-    let flip = select(vec2f(1.0), vec2f(-1.0), vec2f(x.y, y.y) == vec2f(1.0));
-    if x.y > 0.0 { found = add(found, read_field(vec2f(x.x, pixel.y)), vec2f(flip.x, 1.0)); }
-    if y.y > 0.0 { found = add(found, read_field(vec2f(pixel.x, y.x)), vec2f(1.0, flip.y)); }
-    if x.y > 0.0 && y.y > 0.0 { found = add(found, read_field(vec2f(x.x, y.x)), flip); }
-    return found;
+    return Folds(beyond(pixel.x, low.x, high.x, frame.fold & 3u, (frame.fold & 16u) != 0u),
+                 beyond(pixel.y, high.y, low.y, sides, (frame.fold & 32u) != 0u));
+}
+
+// The sums: weight, way to the particles, weight of the fluid.
+fn around(pixel: vec2f) -> vec4f {
+    var sums = read_field(pixel);
+    let folds = folds_of(pixel);
+    let flip = select(vec2f(1.0), vec2f(-1.0), vec2f(folds.x.y, folds.y.y) == vec2f(1.0));
+    if folds.x.y > 0.0 { sums += read_field(vec2f(folds.x.x, pixel.y)) * vec4f(1.0, flip.x, 1.0, 1.0); }
+    if folds.y.y > 0.0 { sums += read_field(vec2f(pixel.x, folds.y.x)) * vec4f(1.0, 1.0, flip.y, 1.0); }
+    if folds.x.y > 0.0 && folds.y.y > 0.0 { sums += read_field(vec2f(folds.x.x, folds.y.x)) * vec4f(1.0, flip, 1.0); }
+    return sums;
+}
+
+// Weighted sum of places on the colour map.
+fn value_around(pixel: vec2f) -> f32 {
+    var value = read_value(pixel);
+    let folds = folds_of(pixel);
+    if folds.x.y > 0.0 { value += read_value(vec2f(folds.x.x, pixel.y)); }
+    if folds.y.y > 0.0 { value += read_value(vec2f(pixel.x, folds.y.x)); }
+    if folds.x.y > 0.0 && folds.y.y > 0.0 { value += read_value(vec2f(folds.x.x, folds.y.x)); }
+    return value;
 }
 
 // How far within the water, in field radii, as long as that is little: 0 at its surface, `deep` in its middle. A plane
@@ -75,40 +99,48 @@ fn within(sums: vec4f, own: f32) -> f32 {
     return deep - length(sums.yz) / max(sums.x, 1e-4) - 0.5 * max(1.0 - sums.w / own, 0.0);
 }
 
+// Upwards in `within`, per pixel.
+fn slope_of(pixel: vec2f, own: f32) -> vec2f {
+    let step = f32(frame.field_texel);
+    let right = within(around(pixel + vec2f(step, 0.0)), own);
+    let left = within(around(pixel - vec2f(step, 0.0)), own);
+    let below = within(around(pixel + vec2f(0.0, step)), own);
+    let above = within(around(pixel - vec2f(0.0, step)), own);
+    return 0.5 / step * vec2f(right - left, below - above);
+}
+
 @fragment
 fn liquid_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let pixel = place.xy;
     let here = around(pixel);
-    if here.sums.w < 1e-3 { return vec4f(0.0); }
-    let spread = frame.field_radius / (frame.spacing * frame.pixels_per_meter);
-    let own = 0.8 / (spread * spread); // of a particle's weight at its rim; field.wgsl: peak
-    let level = within(here.sums, own);
-    // Upwards in `level`, per pixel.
-    let step = f32(frame.field_texel);
-    let right = within(around(pixel + vec2f(step, 0.0)).sums, own);
-    let left = within(around(pixel - vec2f(step, 0.0)).sums, own);
-    let below = within(around(pixel + vec2f(0.0, step)).sums, own);
-    let above = within(around(pixel - vec2f(0.0, step)).sums, own);
-    let slope = 0.5 / step * vec2f(right - left, below - above);
-    let steep = max(length(slope), 0.15 / frame.field_radius);
-    // Small particles are spread farther than they are large: a few of them are a mist.
-    let full = clamp(0.11 * (spread - 1.0), 0.11, 0.45);
     let in_domain = clamp(0.5 - domain_distance(pixel), 0.0, 1.0);
-    let alpha = clamp(0.5 + level / steep, 0.0, 1.0) * min(here.sums.w / full, 1.0) * in_domain;
+    if here.w < 1e-3 || in_domain == 0.0 { return vec4f(0.0); }
+    let spacing = frame.spacing * frame.pixels_per_meter;
+    let spread = frame.field_radius / spacing;
+    let own = 0.8 / (spread * spread); // of a particle's weight at its rim; field.wgsl: peak
+    let level = within(here, own);
+    var slope = vec2f(0.0); // hardly anything in the middle of the water
+    if level < 0.8 * deep { slope = slope_of(pixel, own); }
+    let steep = max(length(slope), 0.15 / frame.field_radius);
+    // Particles smaller than a pixel are spread farther than they are large: a few of them are a mist.
+    let full = mix(0.45, 0.6 * own, smoothstep(0.5, 1.2, spacing));
+    let alpha = clamp(0.5 + level / steep, 0.0, 1.0) * min(here.w / full, 1.0) * in_domain;
 
-    let t = clamp(here.value / here.sums.w, 0.0, 1.0);
+    let t = clamp(value_around(pixel) / here.w, 0.0, 1.0);
+    let base = color_map(t);
     // Light falls in from above, and is brightest at the surface that faces it.
     let top = to_pixels(frame.domain_max.xy).y;
     let bottom = to_pixels(frame.domain_min.xy).y;
     let depth = clamp((pixel.y - top) / max(bottom - top, 1.0), 0.0, 1.0);
-    let base = color_map(t);
-    var color = base * mix(mix(1.08, 0.84, depth), 1.0, base.r); // white stays white
+    let pale = smoothstep(0.3, 0.7, dot(base, vec3f(0.30, 0.59, 0.11))); // stays so
+    var color = base * mix(mix(1.08, 0.86, depth), 1.0, pale);
     let rim = clamp(1.0 - level / deep, 0.0, 1.0);
+    let up_the_map = select(min(t + 0.2, 1.0), t, frame.color_by == 2u); // a diverging map has no "up"
+    color = mix(color, color_map(up_the_map), 0.6 * smoothstep(0.3, 1.0, rim));
     let facing = max(dot(-slope, normalize(vec2f(-0.4, -0.9))) / max(length(slope), 1e-6), 0.0);
-    color = mix(color, color_map(min(t + 0.2, 1.0)), 0.6 * smoothstep(0.3, 1.0, rim));
     let line = 1.0 - smoothstep(0.8, 2.6, level / (steep * frame.line_scale));
     color += vec3f(0.22, 0.25, 0.27) * line * (0.35 + 0.65 * facing);
     // What is fast glows, beyond the surface too.
-    let glow = 0.5 * smoothstep(0.45, 1.0, t) * min(here.sums.w, 0.5) * in_domain * (1.0 - alpha);
-    return vec4f(to_target(clamp(color, vec3f(0.0), vec3f(1.0))) * alpha + to_target(color_map(t)) * glow, alpha);
+    let glow = 0.5 * smoothstep(0.45, 1.0, t) * min(here.w, 0.5) * in_domain * (1.0 - alpha);
+    return vec4f(to_target(clamp(color, vec3f(0.0), vec3f(1.0))) * alpha + to_target(base) * glow, alpha);
 }

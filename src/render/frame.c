@@ -129,11 +129,14 @@ static void fill_fold(WeirFrame *frame, const WeirScene *scene)
     }
 }
 
-// Spacing in pixels. A particle covers a few of the field's texels at least; that of large ones needs fewer.
-static void fill_water(WeirFrame *frame, float spacing)
+// A particle covers a few of the field's texels at least; that of large ones needs fewer. Where the support is many
+// spacings wide, particles lie in clusters, and between them is no air.
+static void fill_water(WeirFrame *frame, const WeirParameters *parameters)
 {
-    frame->field_texel = spacing < 5.0f ? 1 : 2;
-    frame->field_radius = fmaxf(2.2f * spacing, 2.5f);
+    float spacing = parameters->particle_spacing, support = parameters->support_radius;
+    float radius = fminf(fmaxf(2.2f * spacing, 0.5f * support), 4.0f * spacing) * frame->pixels_per_meter;
+    frame->field_texel = radius < 9.0f ? 1 : 2;
+    frame->field_radius = fmaxf(radius, 2.5f);
     // Large particles show in their water.
     frame->disc_share = fminf(fmaxf((frame->particle_radius - 5.0f) / 5.0f, 0.0f), 1.0f);
 }
@@ -146,7 +149,7 @@ static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParamete
     // Larger than half a spacing, so that walls and bodies look closed.
     frame->disc_radius = fmaxf(0.72f * parameters->particle_spacing * scale, frame->particle_radius);
     frame->water_radius = fmaxf(1.5f * parameters->particle_spacing * scale, 1.5f);
-    fill_water(frame, parameters->particle_spacing * scale);
+    fill_water(frame, parameters);
     frame->tool_radius = fmaxf(view->tool_radius, 0.0f) * scale;
     // mueller's walls hold the particles' centres; wcsph's are where the lattice's half spacing ends.
     frame->border = frame->particle_radius;
