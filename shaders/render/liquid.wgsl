@@ -50,8 +50,11 @@ fn beyond(pixel: f32, low: f32, high: f32, bits: u32, is_periodic: bool) -> vec2
         if pixel > high - reach { return vec2f(pixel - high + low, 2.0); }
         return vec2f(0.0);
     }
-    if (bits & 1u) != 0u && pixel < low - frame.border + reach { return vec2f(2.0 * (low - frame.border) - pixel, 1.0); }
-    if (bits & 2u) != 0u && pixel > high + frame.border - reach { return vec2f(2.0 * (high + frame.border) - pixel, 1.0); }
+    // Particles stop somewhere between the side and half a spacing before it.
+    let first = low - 0.5 * frame.border;
+    let last = high + 0.5 * frame.border;
+    if (bits & 1u) != 0u && pixel < first + reach { return vec2f(2.0 * first - pixel, 1.0); }
+    if (bits & 2u) != 0u && pixel > last - reach { return vec2f(2.0 * last - pixel, 1.0); }
     return vec2f(0.0);
 }
 
