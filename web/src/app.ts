@@ -464,14 +464,14 @@ export class App implements PanelHost {
     this.#showStyle();
   }
   // Water in 3D has no legend, and without WebGPU there is no key for water. A processor that plays the graphics card is
-  // too slow for it in 3D unless it is asked for; in 2D it costs little.
+  // too slow for it unless it is asked for; a card may be so in 3D.
   #showStyle(): void {
     const { classList } = document.body;
     const { dimension } = this.store.scene;
     const asked = this.#styleAsked.get(dimension);
     if (asked !== undefined) this.camera.view.fluidStyle = asked;
     else if (this.engine?.kind === 'gpu') {
-      const isWater = dimension === 2 || (this.#isCard() && this.#known.drawsWater(this.engine.device));
+      const isWater = this.#isCard() && (dimension === 2 || this.#known.drawsWater(this.engine.device));
       this.camera.view.fluidStyle = isWater ? FluidStyle.water : FluidStyle.particles;
     }
     classList.toggle('may-be-water', this.drawsWater());
