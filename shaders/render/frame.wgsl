@@ -49,7 +49,7 @@ struct Frame {
     shapes: u32,                 // 1 where walls and bodies are drawn as shapes, not as particles
     field_radius: f32,           // 2D: how far a particle of water is spread, pixels
     disc_share: f32,             // 2D: how much of the particles is seen in the water, 0 to 1
-    fold: u32,                   // 2D: bit 2 axis + side: a mirror of the water; bit 4 + axis: periodic
+    fold: u32,                   // 2D: bit 2 axis + side: a wall; bit 4 + axis: periodic
     field_texel: u32,            // 2D: of the field that the water is made of, pixels
 }
 

@@ -9,7 +9,8 @@
 extern const char weir_wgsl_render_frame[], weir_wgsl_render_particle[];
 extern const char weir_wgsl_render_particles_mueller[], weir_wgsl_render_particles_wcsph[];
 extern const char weir_wgsl_render_background[], weir_wgsl_render_water[], weir_wgsl_render_particles[];
-extern const char weir_wgsl_render_overlay[], weir_wgsl_render_field[], weir_wgsl_render_liquid[];
+extern const char weir_wgsl_render_overlay[], weir_wgsl_render_field[], weir_wgsl_render_solid_field[];
+extern const char weir_wgsl_render_bump[], weir_wgsl_render_liquid[];
 extern const char weir_wgsl_render_flat_solids[], weir_wgsl_render_solid_state[];
 extern const char weir_wgsl_render_space_space[], weir_wgsl_render_space_shadow[];
 extern const char weir_wgsl_render_space_backdrop[], weir_wgsl_render_space_ground[];
@@ -33,7 +34,7 @@ typedef enum Target {
     TARGET_SURFACE,   // of water, with depth
     TARGET_SMOOTH,    // the same without
     TARGET_THICKNESS, // of water
-    TARGET_FIELD,     // of water in 2D: two textures
+    TARGET_FIELD,     // of water in 2D
     TARGETS,
 } Target;
 
@@ -62,10 +63,14 @@ typedef struct Effect {
 #define SOLID                    weir_wgsl_render_space_solid
 #define HOLLOWS                  weir_wgsl_render_space_hollows
 #define LIQUID                   weir_wgsl_render_space_liquid
+#define BUMP                     weir_wgsl_render_bump
 #define EDGE                     weir_wgsl_render_space_edge
 #define EFFECT(label, text, ...) {.name = label, .source = weir_wgsl_render_##text, __VA_ARGS__}
 static const Effect effects[WEIR_EFFECTS] = {
-    [WEIR_EFFECT_FIELD] = EFFECT("field", field, .target = TARGET_FIELD, .particles = true, .adds = true),
+    [WEIR_EFFECT_FIELD] =
+        EFFECT("field", field, .target = TARGET_FIELD, .shared = {BUMP}, .particles = true, .adds = true),
+    [WEIR_EFFECT_SOLID_FIELD] = EFFECT("solid_field", solid_field, .target = TARGET_FIELD, .shared = {BUMP},
+                                       .particles = true, .adds = true),
     [WEIR_EFFECT_BACKGROUND] = EFFECT("background", background, .blends = false),
     [WEIR_EFFECT_LIQUID] = EFFECT("liquid", liquid, .textures = WEIR_TEXTURES_FIELD, .blends = true),
     [WEIR_EFFECT_WATER] = EFFECT("water", water, .particles = true, .blends = true),
@@ -120,7 +125,7 @@ WeirTextures weir_effect_textures(WeirEffectKind kind)
 bool weir_effect_needed(WeirEffectKind kind, uint32_t dimension, bool water)
 {
     if (dimension == 3) return kind >= WEIR_EFFECT_SHADOW && (kind < WEIR_EFFECT_SHADE || water);
-    bool liquid = kind == WEIR_EFFECT_FIELD || kind == WEIR_EFFECT_LIQUID;
+    bool liquid = kind <= WEIR_EFFECT_SOLID_FIELD || kind == WEIR_EFFECT_LIQUID;
     return kind < WEIR_EFFECT_SHADOW && !(liquid && !water) && !(kind == WEIR_EFFECT_WATER && water);
 }
 
@@ -203,15 +208,11 @@ WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WG
                                .dstFactor = WGPUBlendFactor_OneMinusSrcAlpha};
     if (effect->adds) over.dstFactor = WGPUBlendFactor_One;
     WGPUBlendState blend = {.color = over, .alpha = over};
-    WGPUColorTargetState colors[2] = {{.format = color_format(effect, target),
-                                       .blend = effect->blends || effect->adds ? &blend : NULL,
-                                       .writeMask = WGPUColorWriteMask_All}};
-    colors[1] = colors[0];
-    colors[1].format = WEIR_VALUE_FORMAT;
-    WGPUFragmentState fragment = {.module = module,
-                                  .entryPoint = text_view(fragment_entry),
-                                  .targetCount = effect->target == TARGET_FIELD ? 2 : 1,
-                                  .targets = colors};
+    WGPUColorTargetState color = {.format = color_format(effect, target),
+                                  .blend = effect->blends || effect->adds ? &blend : NULL,
+                                  .writeMask = WGPUColorWriteMask_All};
+    WGPUFragmentState fragment = {
+        .module = module, .entryPoint = text_view(fragment_entry), .targetCount = 1, .targets = &color};
     WGPUDepthStencilState depth = depth_state(effect);
     bool has_depth =
         effect->target == TARGET_SCENE || effect->target == TARGET_SHADOW || effect->target == TARGET_SURFACE;

@@ -5,7 +5,8 @@
 
 // In the order in which they are drawn; one WGSL file each. First those of a picture in 2D, then those in 3D.
 typedef enum WeirEffectKind {
-    WEIR_EFFECT_FIELD, // of water in 2D alone
+    WEIR_EFFECT_FIELD,       // of water in 2D alone
+    WEIR_EFFECT_SOLID_FIELD, // likewise
     WEIR_EFFECT_BACKGROUND,
     WEIR_EFFECT_LIQUID, // of water in 2D alone
     WEIR_EFFECT_WATER,  // of particles in 2D alone
@@ -38,7 +39,6 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float   // the water's depth, and its share of a pixel
 #define WEIR_THICKNESS_FORMAT WGPUTextureFormat_RGBA16Float // of water and foam, m; added up
 #define WEIR_FIELD_FORMAT     WGPUTextureFormat_RGBA16Float // sums over particles in 2D
-#define WEIR_VALUE_FORMAT     WGPUTextureFormat_R16Float    // sum of their places on the colour map
 
 // What bind group 2 holds: nothing, or what effects read beside the particles.
 typedef enum WeirTextures {

@@ -50,7 +50,6 @@ void weir_flat_release(WeirRenderer *renderer)
 
 static bool create(WeirRenderer *renderer, uint32_t width, uint32_t height)
 {
-    const WGPUTextureFormat formats[WEIR_FLAT_TEXTURES] = {WEIR_FIELD_FORMAT, WEIR_VALUE_FORMAT};
     WeirFlat *flat = &renderer->flat;
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
     WGPUBindGroupEntry entries[WEIR_FLAT_TEXTURES];
@@ -60,7 +59,7 @@ static bool create(WeirRenderer *renderer, uint32_t width, uint32_t height)
                                                       WGPUTextureUsage_TextureBinding,
                                              .dimension = WGPUTextureDimension_2D,
                                              .size = {width, height, 1},
-                                             .format = formats[k],
+                                             .format = WEIR_FIELD_FORMAT,
                                              .mipLevelCount = 1,
                                              .sampleCount = 1});
         if (!flat->textures[k]) return false;
@@ -95,20 +94,16 @@ WeirStatus weir_flat_prepare(WeirRenderer *renderer, const WeirFrame *frame)
 }
 
 // A pass over the effects from `first` to `last` that the picture has and that are switched on.
-static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing, const WGPUTextureView *targets,
-                      uint32_t target_count, double alpha, WeirEffectKind first, WeirEffectKind last)
+static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing, WGPUTextureView target,
+                      double alpha, WeirEffectKind first, WeirEffectKind last)
 {
-    WGPURenderPassColorAttachment colors[WEIR_FLAT_TEXTURES];
-    for (uint32_t k = 0; k < target_count; k++) {
-        colors[k] = (WGPURenderPassColorAttachment){.view = targets[k],
-                                                    .depthSlice = WGPU_DEPTH_SLICE_UNDEFINED,
-                                                    .loadOp = WGPULoadOp_Clear,
-                                                    .storeOp = WGPUStoreOp_Store,
-                                                    .clearValue = {.a = alpha}};
-    }
+    WGPURenderPassColorAttachment color = {.view = target,
+                                           .depthSlice = WGPU_DEPTH_SLICE_UNDEFINED,
+                                           .loadOp = WGPULoadOp_Clear,
+                                           .storeOp = WGPUStoreOp_Store,
+                                           .clearValue = {.a = alpha}};
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        drawing->encoder,
-        &(WGPURenderPassDescriptor){.colorAttachmentCount = target_count, .colorAttachments = colors});
+        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
     for (int kind = (int)first; kind <= (int)last; kind++) {
         if (!(renderer->effects & 1u << kind)) continue;
         if (!weir_effect_needed((WeirEffectKind)kind, 2, drawing->water)) continue;
@@ -124,8 +119,9 @@ static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing, const 
 
 void weir_flat_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
-    if (drawing->water)
-        draw_pass(renderer, drawing, renderer->flat.views, WEIR_FLAT_TEXTURES, 0.0, WEIR_EFFECT_FIELD,
-                  WEIR_EFFECT_FIELD);
-    draw_pass(renderer, drawing, &drawing->target, 1, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY);
+    for (int k = 0; k < WEIR_FLAT_TEXTURES && drawing->water; k++) {
+        WeirEffectKind kind = k == 0 ? WEIR_EFFECT_FIELD : WEIR_EFFECT_SOLID_FIELD;
+        draw_pass(renderer, drawing, renderer->flat.views[k], 0.0, kind, kind);
+    }
+    draw_pass(renderer, drawing, drawing->target, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY);
 }

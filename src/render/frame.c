@@ -117,14 +117,14 @@ static void fill_solids(WeirFrame *frame, const WeirScene *scene)
     }
 }
 
-// Where the water in 2D goes on beyond the domain's sides. Sides of wcsph are particles, which hold it in the same way.
+// What is beyond the domain's sides in 2D: the other end, or a wall.
 static void fill_fold(WeirFrame *frame, const WeirScene *scene)
 {
     for (uint32_t axis = 0; axis < 2; axis++) {
         if (scene->periodic[axis]) frame->fold |= 16u << axis;
         for (uint32_t side = 0; side < 2; side++) {
-            bool mirrors = scene->method != WEIR_METHOD_WCSPH && !scene->periodic[axis];
-            frame->fold |= (uint32_t)mirrors << (2 * axis + side);
+            bool wall = !scene->periodic[axis] && !scene->open[axis][side];
+            frame->fold |= (uint32_t)wall << (2 * axis + side);
         }
     }
 }

@@ -203,6 +203,7 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     WGPUBindGroup particles = drawing->particles;
     switch (kind) {
     case WEIR_EFFECT_FIELD:
+    case WEIR_EFFECT_SOLID_FIELD:
     case WEIR_EFFECT_WATER:
     case WEIR_EFFECT_PARTICLES:
     case WEIR_EFFECT_SHADOW:

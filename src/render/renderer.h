@@ -58,7 +58,7 @@ typedef struct WeirSolids {
     uint32_t shape_count; // corners, in 2D shapes; 0: walls and bodies are drawn as particles
 } WeirSolids;
 
-// flat.c: the field that water in 2D is made of.
+// flat.c: the fields that water in 2D is made of: of the fluid, of solids.
 enum { WEIR_FLAT_TEXTURES = 2 };
 typedef struct WeirFlat {
     uint32_t width, height; // texels; 0: none yet
@@ -110,7 +110,7 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
 
 // flat.c
 void weir_flat_create_layouts(WeirRenderer *renderer, WGPUDevice device);
-// Makes the field for a picture, if it is not there.
+// Makes the fields for a picture, if they are not there.
 WeirStatus weir_flat_prepare(WeirRenderer *renderer, const WeirFrame *frame);
 void weir_flat_draw(WeirRenderer *renderer, const WeirDrawing *drawing);
 void weir_flat_release(WeirRenderer *renderer);

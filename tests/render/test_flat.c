@@ -281,7 +281,7 @@ static void check_covered(const WeirImage *image, const WeirImage *plain)
             float y = 0.5f - ((float)row + 0.5f - 0.5f * SIZE) / scale;
             const uint8_t *pixel = image->pixels + 4 * ((size_t)row * SIZE + (size_t)column);
             bool inside = x > 0.0f && x < 1.0f && y > 0.0f && y < 1.0f;
-            if (inside && y < 0.39f && !is_fluid(pixel))
+            if (inside && y < 0.385f && !is_fluid(pixel))
                 fail_msg("no water at %g, %g: %d %d %d", (double)x, (double)y, pixel[0], pixel[1], pixel[2]);
             bool beyond = x < -0.02f || x > 1.02f || y < -0.02f || y > 0.45f;
             if (beyond) assert_memory_equal(pixel, plain->pixels + (pixel - image->pixels), 4);
