@@ -50,8 +50,11 @@ fn beyond(pixel: f32, low: f32, high: f32) -> vec2f {
 // The sums over a solid half plane whose edge is so many radii away, towards `way`; the mean is doubled, for particles of
 // mueller lie in rows there that keep away from each other.
 fn half_plane(distance: f32, way: vec2f) -> vec4f {
-    let d = clamp(distance, 0.0, 1.0);
-    return vec4f(0.5 * pow(1.0 - d, 2.5), 0.291 * pow(1.0 - d * d, 3.5) * way, 0.0);
+    let d = max(distance, 0.0);
+    if d >= 1.0 { return vec4f(0.0); }
+    let near = 1.0 - d;
+    let inside = 1.0 - d * d;
+    return vec4f(0.5 * near * near * sqrt(near), 0.291 * inside * inside * inside * sqrt(inside) * way, 0.0);
 }
 
 fn around(pixel: vec2f) -> Around {
@@ -104,8 +107,11 @@ fn slope_of(pixel: vec2f, own: f32) -> vec2f {
 @fragment
 fn liquid_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     let pixel = place.xy;
-    let here = around(pixel);
+    // Most pixels have no fluid around them.
+    let nearest = textureLoad(field, texel_at(vec2i(pixel / f32(frame.field_texel))), 0);
+    if nearest.x == 0.0 && frame.fold < 16u { return vec4f(0.0); }
     let in_domain = clamp(0.5 - domain_distance(pixel), 0.0, 1.0);
+    let here = around(pixel);
     if here.fluid.x < 1e-3 || in_domain == 0.0 { return vec4f(0.0); }
     let spacing = frame.spacing * frame.pixels_per_meter;
     let spread = frame.field_radius / spacing;
