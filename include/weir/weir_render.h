@@ -1,6 +1,6 @@
 // Draws a simulation that runs on the GPU: in 2D every particle a round anti-aliased disc, in 3D a shaded sphere,
-// the fluid coloured by a quantity; or, in 3D, the fluid as clear water with a smooth surface. Walls and bodies in 3D are
-// drawn as their shapes, where they are at the moment. All drawing reads the solver's own buffers; nothing is copied
+// the fluid coloured by a quantity; or the fluid as water with a smooth surface, in 2D coloured too, in 3D clear. Walls and
+// bodies are drawn as their shapes, where they are at the moment. All drawing reads the solver's own buffers; nothing is copied
 // to the host. Link weir_render.
 #pragma once
 
@@ -19,10 +19,10 @@ typedef enum WeirColorBy {
     WEIR_COLOR_PRESSURE,      // Pa
 } WeirColorBy;
 
-// How the fluid is drawn in 3D; in 2D this is ignored.
+// How the fluid is drawn.
 typedef enum WeirFluidStyle {
-    WEIR_FLUID_PARTICLES, // shaded spheres, coloured by a quantity
-    WEIR_FLUID_WATER, // a water surface, which has no colour map: color_by, color_min and color_max are unused
+    WEIR_FLUID_PARTICLES, // discs or shaded spheres, coloured by a quantity
+    WEIR_FLUID_WATER, // one body of water. 3D: it has no colour map: color_by, color_min and color_max are unused
 } WeirFluidStyle;
 
 // What one frame shows. Lengths in metres unless said otherwise.

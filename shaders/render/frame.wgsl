@@ -44,9 +44,13 @@ struct Frame {
     occlusion_radius: f32,       // 3D: m
     disc_radius: f32,            // 2D: of wall and body particles, pixels
     faint_sides: u32,            // 2D: bit 2 axis + (0 low, 1 high): no wall is there
-    water: u32,                  // 3D: 1 where the fluid is drawn as water
-    spacing: f32,                // 3D: of the particles, m
-    shapes: u32,                 // 3D: 1 where walls and bodies are drawn as shapes, not as particles
+    water: u32,                  // 1 where the fluid is drawn as water
+    spacing: f32,                // of the particles, m
+    shapes: u32,                 // 1 where walls and bodies are drawn as shapes, not as particles
+    field_radius: f32,           // 2D: how far a particle of water is spread, pixels
+    disc_share: f32,             // 2D: how much of the particles is seen in the water, 0 to 1
+    fold: u32,                   // 2D: bit 2 axis + side: a wall; bit 4 + axis: periodic
+    field_texel: u32,            // 2D: of the field that the water is made of, pixels
     photon_columns: u32,         // 3D: caustics.wgsl
     photon_rows: u32,
 }

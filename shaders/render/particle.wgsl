@@ -8,14 +8,19 @@ const HIDDEN = 3u;
 const group_inlet = 0x40000000u;
 const group_empty = 0x7fffffffu;
 
+// A wall that is not drawn.
+fn is_hidden(group: u32) -> bool {
+    let solid = group - 1u;
+    return solid < 128u && ((frame.hidden[solid / 32u] >> (solid % 32u)) & 1u) != 0u;
+}
+
 fn particle_kind(particle: u32) -> u32 {
     let group = particle_group(particle);
     if group == group_empty { return HIDDEN; }
     if group == 0u || group >= group_inlet { return FLUID; }
     if frame.shapes != 0u { return HIDDEN; } // solids.wgsl draws it
-    let solid = group - 1u;
-    if solid < 128u && ((frame.hidden[solid / 32u] >> (solid % 32u)) & 1u) != 0u { return HIDDEN; }
-    return select(WALL, BODY, solid >= frame.first_body);
+    if is_hidden(group) { return HIDDEN; }
+    return select(WALL, BODY, group - 1u >= frame.first_body);
 }
 
 // Place of a particle on the colour map, 0 to 1.

@@ -6,20 +6,21 @@ struct Disc {
     @builtin(position) place: vec4f,
     @location(0) offset: vec2f, // pixels from the centre, y down
     @location(1) @interpolate(flat) color: vec3f,
-    @location(2) @interpolate(flat) look: vec2f, // radius, pixels; 1 for a bead, 0 for a flat disc
+    @location(2) @interpolate(flat) look: vec3f, // radius, pixels; 1 for a bead, 0 for a flat disc; how much of it is seen
 }
 
 @vertex
 fn particles_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Disc {
     var disc: Disc;
     let kind = particle_kind(particle);
-    if kind == HIDDEN {
+    let share = select(1.0, frame.disc_share, kind == FLUID && frame.water != 0u);
+    if kind == HIDDEN || share == 0.0 {
         disc.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
         return disc;
     }
     let radius = select(frame.disc_radius, frame.particle_radius, kind == FLUID);
     let corner = square_corner(vertex) * max(radius + 0.5, 1.5);
-    disc.look = vec2f(radius, select(0.0, 1.0, kind == FLUID));
+    disc.look = vec3f(radius, select(0.0, 1.0, kind == FLUID), share);
     disc.place = to_clip(to_pixels(particle_position(particle).xy) + corner);
     disc.offset = corner;
     disc.color = to_target(particle_color(particle, kind));
@@ -43,7 +44,7 @@ fn disc_coverage(distance: f32, radius: f32) -> f32 {
 fn particles_fragment(disc: Disc) -> @location(0) vec4f {
     let radius = disc.look.x;
     let distance = length(disc.offset);
-    let alpha = disc_coverage(distance, radius);
+    let alpha = disc.look.z * disc_coverage(distance, radius);
     // Big enough discs look like beads: darker rim, a small light from above left.
     let detail = disc.look.y * smoothstep(1.5, 5.0, radius);
     let part = distance / radius;

@@ -9,7 +9,9 @@
 extern const char weir_wgsl_render_frame[], weir_wgsl_render_particle[];
 extern const char weir_wgsl_render_particles_mueller[], weir_wgsl_render_particles_wcsph[];
 extern const char weir_wgsl_render_background[], weir_wgsl_render_water[], weir_wgsl_render_particles[];
-extern const char weir_wgsl_render_overlay[];
+extern const char weir_wgsl_render_overlay[], weir_wgsl_render_field[], weir_wgsl_render_solid_field[];
+extern const char weir_wgsl_render_bump[], weir_wgsl_render_liquid[];
+extern const char weir_wgsl_render_flat_solids[], weir_wgsl_render_solid_state[];
 extern const char weir_wgsl_render_space_space[], weir_wgsl_render_space_shadow[];
 extern const char weir_wgsl_render_space_backdrop[], weir_wgsl_render_space_ground[];
 extern const char weir_wgsl_render_space_spheres[], weir_wgsl_render_space_edges[];
@@ -34,10 +36,11 @@ typedef enum Target {
     TARGET_SURFACE,   // of water, with depth
     TARGET_SMOOTH,    // the same without
     TARGET_THICKNESS, // of water
+    TARGET_FIELD,     // of water in 2D
     TARGETS,
 } Target;
 
-enum { SHARED = 5 };
+enum { SHARED = 6 };
 
 typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
@@ -59,29 +62,38 @@ typedef struct Effect {
 #define LIGHT                    weir_wgsl_render_space_light
 #define GLOSS                    weir_wgsl_render_space_gloss
 #define ROTATION                 weir_wgsl_common_rotation
+#define SOLID_STATE              weir_wgsl_render_solid_state
 #define SOLID                    weir_wgsl_render_space_solid
 #define HOLLOWS                  weir_wgsl_render_space_hollows
 #define LIQUID                   weir_wgsl_render_space_liquid
+#define BUMP                     weir_wgsl_render_bump
 #define EDGE                     weir_wgsl_render_space_edge
 #define EFFECT(label, text, ...) {.name = label, .source = weir_wgsl_render_##text, __VA_ARGS__}
 static const Effect effects[WEIR_EFFECTS] = {
+    [WEIR_EFFECT_FIELD] =
+        EFFECT("field", field, .target = TARGET_FIELD, .shared = {BUMP}, .particles = true, .adds = true),
+    [WEIR_EFFECT_SOLID_FIELD] = EFFECT("solid_field", solid_field, .target = TARGET_FIELD, .shared = {BUMP},
+                                       .particles = true, .adds = true),
     [WEIR_EFFECT_BACKGROUND] = EFFECT("background", background, .blends = false),
+    [WEIR_EFFECT_LIQUID] = EFFECT("liquid", liquid, .textures = WEIR_TEXTURES_FIELD, .blends = true),
     [WEIR_EFFECT_WATER] = EFFECT("water", water, .particles = true, .blends = true),
     [WEIR_EFFECT_PARTICLES] = EFFECT("particles", particles, .particles = true, .blends = true),
+    [WEIR_EFFECT_FLAT_SOLIDS] = EFFECT("flat_solids", flat_solids, .textures = WEIR_TEXTURES_EDGES,
+                                       .shared = {ROTATION, SOLID_STATE}, .blends = true),
     [WEIR_EFFECT_OVERLAY] = EFFECT("overlay", overlay, .blends = true),
     [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .particles = true,
                                   .tests_depth = true, .writes_depth = true),
-    [WEIR_EFFECT_SOLID_SHADOW] =
-        EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW, .shared = {ROTATION, SOLID},
-               .triangles = true, .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SOLID_SHADOW] = EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW,
+                                        .shared = {ROTATION, SOLID_STATE, SOLID}, .triangles = true,
+                                        .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LENS, LIGHT}, .blends = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SOLIDS] =
         EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID}, .triangles = true, .tests_depth = true,
-               .writes_depth = true),
+               .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID_STATE, SOLID}, .triangles = true,
+               .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LENS, LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
@@ -116,6 +128,13 @@ static const Effect effects[WEIR_EFFECTS] = {
 WeirTextures weir_effect_textures(WeirEffectKind kind)
 {
     return effects[kind].textures;
+}
+
+bool weir_effect_needed(WeirEffectKind kind, uint32_t dimension, bool water)
+{
+    if (dimension == 3) return kind >= WEIR_EFFECT_SHADOW && (kind < WEIR_EFFECT_HEIGHT || water);
+    bool liquid = kind <= WEIR_EFFECT_SOLID_FIELD || kind == WEIR_EFFECT_LIQUID;
+    return kind < WEIR_EFFECT_SHADOW && !(liquid && !water) && !(kind == WEIR_EFFECT_WATER && water);
 }
 
 static WGPUStringView text_view(const char *text)
@@ -164,6 +183,7 @@ static WGPUTextureFormat color_format(const Effect *effect, WGPUTextureFormat ta
         [TARGET_SCENE] = WEIR_SCENE_FORMAT,    [TARGET_OCCLUSION] = WEIR_OCCLUSION_FORMAT,
         [TARGET_COLOR] = WEIR_SCENE_FORMAT,    [TARGET_SURFACE] = WEIR_SURFACE_FORMAT,
         [TARGET_SMOOTH] = WEIR_SURFACE_FORMAT, [TARGET_THICKNESS] = WEIR_THICKNESS_FORMAT,
+        [TARGET_FIELD] = WEIR_FIELD_FORMAT,
     };
     return effect->target == TARGET_PICTURE ? target : formats[effect->target];
 }

@@ -5,9 +5,13 @@
 
 // In the order in which they are drawn; one WGSL file each. First those of a picture in 2D, then those in 3D.
 typedef enum WeirEffectKind {
+    WEIR_EFFECT_FIELD,       // of water in 2D alone
+    WEIR_EFFECT_SOLID_FIELD, // likewise
     WEIR_EFFECT_BACKGROUND,
-    WEIR_EFFECT_WATER,
+    WEIR_EFFECT_LIQUID, // of water in 2D alone
+    WEIR_EFFECT_WATER,  // of particles in 2D alone
     WEIR_EFFECT_PARTICLES,
+    WEIR_EFFECT_FLAT_SOLIDS,
     WEIR_EFFECT_OVERLAY,
     WEIR_EFFECT_SHADOW,
     WEIR_EFFECT_SOLID_SHADOW,
@@ -36,11 +40,16 @@ enum { WEIR_SCENE_SAMPLES = 4 };                             // of a pixel of th
 #define WEIR_OCCLUSION_FORMAT WGPUTextureFormat_RG16Float
 #define WEIR_SURFACE_FORMAT   WGPUTextureFormat_RG32Float // the water's depth, and its share of a pixel
 #define WEIR_THICKNESS_FORMAT                                                                                \
-    WGPUTextureFormat_RGBA16Float // sums: of water and foam, m; of heights; of light
+    WGPUTextureFormat_RGBA16Float                       // sums: of water and foam, m; of heights; of light
+#define WEIR_FIELD_FORMAT WGPUTextureFormat_RGBA16Float // sums over particles in 2D
 
-// What bind group 2 holds: nothing, or textures that effects in 3D read.
+// What bind group 2 holds: nothing, or what effects read beside the particles.
 typedef enum WeirTextures {
     WEIR_TEXTURES_NONE,
+    // 2D, flat.c:
+    WEIR_TEXTURES_FIELD, // the sums over particles
+    WEIR_TEXTURES_EDGES, // no texture, but the polygons' edges
+    // 3D, space.c:
     WEIR_TEXTURES_LIGHT,     // the shadow map, the water's height, its caustics
     WEIR_TEXTURES_DEPTH,     // the scene's depth
     WEIR_TEXTURES_SUMS,      // the sums of its height
@@ -58,6 +67,8 @@ typedef enum WeirTextures {
 WGPUShaderModule weir_effect_module(WGPUDevice device, const char *name, const char *const *parts,
                                     size_t count);
 WeirTextures weir_effect_textures(WeirEffectKind kind);
+// Whether a picture has it, with the fluid as water or as particles.
+bool weir_effect_needed(WeirEffectKind kind, uint32_t dimension, bool water);
 // Builds the pipeline of one effect; `target` is the format of the picture in the end. NULL if memory runs out. Faults
 // of the shader go to the device.
 WGPURenderPipeline weir_effect_create(WeirEffectKind kind, WeirMethod method, WGPUDevice device,

@@ -117,6 +117,30 @@ static void fill_solids(WeirFrame *frame, const WeirScene *scene)
     }
 }
 
+// What is beyond the domain's sides in 2D: the other end, or a wall.
+static void fill_fold(WeirFrame *frame, const WeirScene *scene)
+{
+    for (uint32_t axis = 0; axis < 2; axis++) {
+        if (scene->periodic[axis]) frame->fold |= 16u << axis;
+        for (uint32_t side = 0; side < 2; side++) {
+            bool wall = !scene->periodic[axis] && !scene->open[axis][side];
+            frame->fold |= (uint32_t)wall << (2 * axis + side);
+        }
+    }
+}
+
+// A particle covers a few of the field's texels at least; that of large ones needs fewer. Where the support is many
+// spacings wide, particles lie in clusters, and between them is no air.
+static void fill_water(WeirFrame *frame, const WeirParameters *parameters)
+{
+    float spacing = parameters->particle_spacing, support = parameters->support_radius;
+    float radius = fminf(fmaxf(2.2f * spacing, 0.5f * support), 4.0f * spacing) * frame->pixels_per_meter;
+    frame->field_texel = radius < 9.0f ? 1 : 2;
+    frame->field_radius = fmaxf(radius, 2.5f);
+    // Large particles show in their water.
+    frame->disc_share = fminf(fmaxf((frame->particle_radius - 5.0f) / 5.0f, 0.0f), 1.0f);
+}
+
 static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParameters *parameters, bool wcsph)
 {
     float scale = view->pixels_per_meter;
@@ -125,6 +149,7 @@ static void fill_flat(WeirFrame *frame, const WeirView *view, const WeirParamete
     // Larger than half a spacing, so that walls and bodies look closed.
     frame->disc_radius = fmaxf(0.72f * parameters->particle_spacing * scale, frame->particle_radius);
     frame->water_radius = fmaxf(1.5f * parameters->particle_spacing * scale, 1.5f);
+    fill_water(frame, parameters);
     frame->tool_radius = fmaxf(view->tool_radius, 0.0f) * scale;
     // mueller's walls hold the particles' centres; wcsph's are where the lattice's half spacing ends.
     frame->border = frame->particle_radius;
@@ -194,8 +219,6 @@ static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParamet
     frame->sphere_radius = view->particle_radius;
     // A little larger than half a spacing, so that walls and bodies look closed.
     frame->solid_radius = 0.68f * parameters->particle_spacing;
-    frame->spacing = parameters->particle_spacing;
-    frame->water = view->fluid_style == WEIR_FLUID_WATER;
     float size[3];
     for (int k = 0; k < 3; k++) size[k] = frame->domain_max[k] - frame->domain_min[k];
     frame->absorption = 2.6f / size[1];
@@ -229,6 +252,8 @@ void weir_frame_fill(WeirFrame *frame, const WeirSim *sim, const WeirView *view,
         .sound_speed = constants->sound_speed,
         .background_pressure = parameters->background_pressure,
         .quantum = constants->quantum,
+        .spacing = parameters->particle_spacing,
+        .water = view->fluid_style == WEIR_FLUID_WATER,
     };
     for (int k = 0; k < 3; k++) {
         frame->domain_min[k] = constants->domain_min[k];
@@ -238,6 +263,7 @@ void weir_frame_fill(WeirFrame *frame, const WeirSim *sim, const WeirView *view,
     }
     bool wcsph = scene->method == WEIR_METHOD_WCSPH;
     if (wcsph) fill_solids(frame, scene);
+    if (scene->dimension == 2) fill_fold(frame, scene);
     if (scene->dimension == 3)
         fill_space(frame, view, parameters, width, height);
     else

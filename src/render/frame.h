@@ -34,6 +34,8 @@ typedef struct WeirFrame {
     uint32_t faint_sides, water;
     float spacing;
     uint32_t shapes;
+    float field_radius, disc_share;
+    uint32_t fold, field_texel;
     uint32_t photon_columns, photon_rows;
     uint32_t unused;
 } WeirFrame;
@@ -41,7 +43,7 @@ _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");
 _Static_assert(offsetof(WeirFrame, tool_radius) == 224, "frame.wgsl: tool_radius");
 _Static_assert(offsetof(WeirFrame, border) == 272, "frame.wgsl: border");
-_Static_assert(sizeof(WeirFrame) == 352, "frame.wgsl: size, a multiple of 16");
+_Static_assert(sizeof(WeirFrame) == 368, "frame.wgsl: size, a multiple of 16");
 
 // Number of the solids before the scene's own walls: the domain's sides are one, if any is a wall.
 uint32_t weir_scene_first_wall(const WeirScene *scene);

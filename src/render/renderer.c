@@ -10,7 +10,7 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
          .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Fragment | WGPUShaderStage_Compute,
          .buffer = {.type = WGPUBufferBindingType_Uniform, .minBindingSize = sizeof(WeirFrame)}},
         {.binding = 1,
-         .visibility = WGPUShaderStage_Vertex,
+         .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Fragment,
          .buffer = {.type = WGPUBufferBindingType_Uniform,
                     .minBindingSize = sizeof(uint32_t) * WEIR_COLOR_MAPS * WEIR_COLOR_STEPS}},
     };
@@ -26,6 +26,7 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     }
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 4, .entries = particle_entries});
+    weir_flat_create_layouts(renderer, device);
     weir_space_create_layouts(renderer, device);
     for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
         WGPUBindGroupLayout groups[3] = {renderer->frame_layout, renderer->particle_layout,
@@ -78,13 +79,10 @@ static WeirStatus prepare(WeirRenderer *renderer)
 static WeirStatus prepare_pipelines(WeirRenderer *renderer, WeirMethod method, uint32_t dimension, bool water)
 {
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
-    int first = dimension == 3 ? WEIR_EFFECT_SHADOW : WEIR_EFFECT_BACKGROUND;
-    int end = dimension == 3 ? WEIR_EFFECT_HEIGHT : WEIR_EFFECT_SHADOW;
-    if (water) end = WEIR_EFFECTS;
     bool made = false;
-    for (int kind = first; kind < end; kind++) {
+    for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
         WGPURenderPipeline *pipeline = &renderer->pipelines[method][kind];
-        if (*pipeline) continue;
+        if (*pipeline || !weir_effect_needed((WeirEffectKind)kind, dimension, water)) continue;
         made = true;
         WGPUPipelineLayout layout = renderer->pipeline_layouts[weir_effect_textures((WeirEffectKind)kind)];
         *pipeline = weir_effect_create((WeirEffectKind)kind, method, device, layout, renderer->format);
@@ -142,6 +140,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
         WGPUPipelineLayout layout = renderer->pipeline_layouts[textures];
         if (layout) wgpuPipelineLayoutRelease(layout);
     }
+    weir_flat_release(renderer);
     weir_space_release(renderer);
     weir_crowd_release(renderer);
     weir_solids_release(renderer);
@@ -198,11 +197,13 @@ static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticl
 }
 
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
-                          WeirTextures textures, uint32_t number, const WeirDrawing *drawing)
+                          WGPUBindGroup textures, uint32_t number, const WeirDrawing *drawing)
 {
     uint32_t vertices = 4, instances = 1;
     WGPUBindGroup particles = drawing->particles;
     switch (kind) {
+    case WEIR_EFFECT_FIELD:
+    case WEIR_EFFECT_SOLID_FIELD:
     case WEIR_EFFECT_WATER:
     case WEIR_EFFECT_PARTICLES:
     case WEIR_EFFECT_SHADOW:
@@ -226,8 +227,13 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
         break;
     case WEIR_EFFECT_SOLIDS:
     case WEIR_EFFECT_SOLID_SHADOW:
-        vertices = renderer->solids.corner_count;
+        vertices = renderer->solids.shape_count;
         if (vertices == 0) return;
+        particles = renderer->solids.group;
+        break;
+    case WEIR_EFFECT_FLAT_SOLIDS:
+        instances = renderer->solids.shape_count;
+        if (instances == 0) return;
         particles = renderer->solids.group;
         break;
     default:
@@ -237,27 +243,8 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     wgpuRenderPassEncoderSetPipeline(pass, renderer->pipelines[drawing->method][kind]);
     wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
     wgpuRenderPassEncoderSetBindGroup(pass, 1, particles, 0, NULL);
-    if (textures != WEIR_TEXTURES_NONE)
-        wgpuRenderPassEncoderSetBindGroup(pass, 2, renderer->space.groups[textures], 0, NULL);
+    if (textures) wgpuRenderPassEncoderSetBindGroup(pass, 2, textures, 0, NULL);
     wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
-}
-
-static void draw_flat(WeirRenderer *renderer, const WeirDrawing *drawing)
-{
-    WGPURenderPassColorAttachment attachment = {.view = drawing->target,
-                                                .depthSlice = WGPU_DEPTH_SLICE_UNDEFINED,
-                                                .loadOp = WGPULoadOp_Clear,
-                                                .storeOp = WGPUStoreOp_Store,
-                                                .clearValue = {.a = 1.0}};
-    WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        drawing->encoder,
-        &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &attachment});
-    for (int kind = WEIR_EFFECT_BACKGROUND; kind <= WEIR_EFFECT_OVERLAY; kind++) {
-        if (renderer->effects & 1u << kind)
-            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, WEIR_TEXTURES_NONE, 0, drawing);
-    }
-    wgpuRenderPassEncoderEnd(pass);
-    wgpuRenderPassEncoderRelease(pass);
 }
 
 static void submit(WeirRenderer *renderer, WeirDrawing *drawing, uint32_t dimension)
@@ -268,7 +255,7 @@ static void submit(WeirRenderer *renderer, WeirDrawing *drawing, uint32_t dimens
     if (dimension == 3)
         weir_space_draw(renderer, drawing);
     else
-        draw_flat(renderer, drawing);
+        weir_flat_draw(renderer, drawing);
     WGPUCommandBuffer commands = wgpuCommandEncoderFinish(drawing->encoder, NULL);
     wgpuQueueSubmit(queue, 1, &commands);
     wgpuCommandBufferRelease(commands);
@@ -281,26 +268,26 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
 {
     uint32_t dimension = weir_sim_dimension(sim);
     WeirStatus status = prepare(renderer);
-    bool water = dimension == 3 && view->fluid_style == WEIR_FLUID_WATER;
+    bool water = view->fluid_style == WEIR_FLUID_WATER, deep = water && dimension == 3;
     if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
     if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
-    if (status == WEIR_OK && dimension == 3)
-        status = weir_solids_prepare(renderer, weir_sim_scene(sim), particles);
+    if (status == WEIR_OK) status = weir_solids_prepare(renderer, weir_sim_scene(sim), particles);
     if (status != WEIR_OK) return status;
     WeirFrame frame;
     weir_frame_fill(&frame, sim, view, width, height, renderer->format);
-    frame.shapes = dimension == 3 && renderer->solids.corner_count > 0;
-    if (water) status = weir_crowd_prepare(renderer, &frame, particles->count);
+    frame.shapes = renderer->solids.shape_count > 0;
+    if (deep) status = weir_crowd_prepare(renderer, &frame, particles->count);
+    if (water && !deep) status = weir_flat_prepare(renderer, &frame);
     if (status != WEIR_OK) return status;
-    WGPUBuffer crowd = water ? renderer->crowd.values : NULL;
+    WGPUBuffer crowd = deep ? renderer->crowd.values : NULL;
     WeirDrawing drawing = {.particles = particle_group(renderer, particles, crowd),
-                           .uncounted = water ? particle_group(renderer, particles, NULL) : NULL,
+                           .uncounted = deep ? particle_group(renderer, particles, NULL) : NULL,
                            .particle_count = particles->count,
                            .method = particles->method,
                            .frame = &frame,
                            .water = water,
                            .target = target};
-    if (!drawing.particles || (water && !drawing.uncounted))
+    if (!drawing.particles || (deep && !drawing.uncounted))
         return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No memory to draw the particles.");
     submit(renderer, &drawing, dimension);
     renderer->frame_count++;

@@ -53,11 +53,22 @@ typedef struct WeirCrowd {
 
 // solids.c: walls and bodies as shapes.
 typedef struct WeirSolids {
-    WGPUBuffer states;     // whose shapes these are, a reference; NULL: none
-    WGPUBuffer corners;    // array<WeirCorner>
-    WGPUBindGroup group;   // in place of the particles'
-    uint32_t corner_count; // 0: walls and bodies are drawn as particles
+    WGPUBuffer states;    // whose shapes these are, a reference; NULL: none
+    WGPUBuffer shapes;    // array<WeirCorner>, in 2D array<WeirFlatShape>
+    WGPUBindGroup group;  // in place of the particles'
+    WGPUBuffer edges;     // 2D: of polygons
+    WGPUBindGroup edged;  // they are in
+    uint32_t shape_count; // corners, in 2D shapes; 0: walls and bodies are drawn as particles
 } WeirSolids;
+
+// flat.c: the fields that water in 2D is made of: of the fluid, of solids.
+enum { WEIR_FLAT_TEXTURES = 2 };
+typedef struct WeirFlat {
+    uint32_t width, height; // texels; 0: none yet
+    WGPUTexture textures[WEIR_FLAT_TEXTURES];
+    WGPUTextureView views[WEIR_FLAT_TEXTURES];
+    WGPUBindGroup group;
+} WeirFlat;
 
 struct WeirRenderer {
     WeirGpu *gpu;
@@ -69,6 +80,7 @@ struct WeirRenderer {
     WGPUBuffer frame_buffer, color_buffer;
     WGPUBindGroup frame_group;
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
+    WeirFlat flat;
     WeirSpace space;
     WeirCrowd crowd;
     WeirSolids solids;
@@ -94,10 +106,17 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
                                         const WeirGpuParticles *particles, const WeirView *view, void *target,
                                         uint32_t width, uint32_t height);
 
-// Records one effect into a pass, with its bind groups; `textures` in place of its own. `number` is that of its first
+// Records one effect into a pass, with its bind groups; `textures` is bind group 2, NULL for none. `number` is that of its first
 // instance.
 void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, WeirEffectKind kind,
-                          WeirTextures textures, uint32_t number, const WeirDrawing *drawing);
+                          WGPUBindGroup textures, uint32_t number, const WeirDrawing *drawing);
+
+// flat.c
+void weir_flat_create_layouts(WeirRenderer *renderer, WGPUDevice device);
+// Makes the fields for a picture, if they are not there.
+WeirStatus weir_flat_prepare(WeirRenderer *renderer, const WeirFrame *frame);
+void weir_flat_draw(WeirRenderer *renderer, const WeirDrawing *drawing);
+void weir_flat_release(WeirRenderer *renderer);
 
 // crowd.c
 WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t count);

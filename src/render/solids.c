@@ -1,16 +1,25 @@
-// Walls and bodies in 3D as the shapes that they are: made into triangles once, put where the device's own state of the
-// solids has them.
+// Walls and bodies as the shapes that they are: made into triangles (3D) or outlines (2D) once, put where the device's
+// own state of the solids has them.
 #include "render/renderer.h"
 
+#include <stdlib.h>
+
+#include "render/flat_shape.h"
 #include "render/shape.h"
+
+static void release_buffer(WGPUBuffer buffer)
+{
+    if (!buffer) return;
+    wgpuBufferDestroy(buffer);
+    wgpuBufferRelease(buffer);
+}
 
 static void release(WeirSolids *solids)
 {
     if (solids->group) wgpuBindGroupRelease(solids->group);
-    if (solids->corners) {
-        wgpuBufferDestroy(solids->corners);
-        wgpuBufferRelease(solids->corners);
-    }
+    if (solids->edged) wgpuBindGroupRelease(solids->edged);
+    release_buffer(solids->shapes);
+    release_buffer(solids->edges);
     if (solids->states) wgpuBufferRelease(solids->states);
     *solids = (WeirSolids){.group = NULL};
 }
@@ -20,26 +29,69 @@ void weir_solids_release(WeirRenderer *renderer)
     release(&renderer->solids);
 }
 
-static bool create(WeirRenderer *renderer, const WeirTriangles *triangles)
+static WGPUBuffer create_buffer(WeirRenderer *renderer, WGPUBufferUsage usage, const void *data, size_t size)
+{
+    WGPUBuffer buffer = wgpuDeviceCreateBuffer(
+        weir_gpu_wgpu_device(renderer->gpu),
+        &(WGPUBufferDescriptor){.usage = usage | WGPUBufferUsage_CopyDst, .size = size});
+    if (buffer) wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(renderer->gpu), buffer, 0, data, size);
+    return buffer;
+}
+
+static bool create(WeirRenderer *renderer, const void *shapes, size_t size, uint32_t count)
 {
     WeirSolids *solids = &renderer->solids;
-    WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
-    size_t size = triangles->count * sizeof *triangles->corners;
-    solids->corners = wgpuDeviceCreateBuffer(
-        device,
-        &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage | WGPUBufferUsage_CopyDst, .size = size});
-    if (!solids->corners) return false;
-    wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(renderer->gpu), solids->corners, 0, triangles->corners, size);
+    solids->shapes = create_buffer(renderer, WGPUBufferUsage_Storage, shapes, size);
+    if (!solids->shapes) return false;
     // The layout of the particles' group, which has four bindings; the shaders have two.
     WGPUBindGroupEntry entries[4];
     for (uint32_t k = 0; k < 4; k++) {
         entries[k] = (WGPUBindGroupEntry){
-            .binding = k, .buffer = k == 0 ? solids->corners : solids->states, .size = WGPU_WHOLE_SIZE};
+            .binding = k, .buffer = k == 0 ? solids->shapes : solids->states, .size = WGPU_WHOLE_SIZE};
     }
     solids->group = wgpuDeviceCreateBindGroup(
-        device,
+        weir_gpu_wgpu_device(renderer->gpu),
         &(WGPUBindGroupDescriptor){.layout = renderer->particle_layout, .entryCount = 4, .entries = entries});
+    solids->shape_count = count;
     return solids->group != NULL;
+}
+
+static bool create_triangles(WeirRenderer *renderer, const WeirScene *scene)
+{
+    WeirTriangles triangles;
+    weir_triangles_of(&triangles, scene);
+    // Those of a mesh too large for a buffer stay what they are made of: particles.
+    bool any = !triangles.failed && triangles.count > 0;
+    bool good = !any || create(renderer, triangles.corners, triangles.count * sizeof *triangles.corners,
+                               triangles.count);
+    weir_triangles_free(&triangles);
+    return good;
+}
+
+static bool create_edges(WeirRenderer *renderer, const WeirFlatShapes *flat)
+{
+    WeirSolids *solids = &renderer->solids;
+    solids->edges = create_buffer(renderer, WGPUBufferUsage_Uniform, flat->edges, sizeof flat->edges);
+    if (!solids->edges) return false;
+    WGPUBindGroupEntry entry = {.buffer = solids->edges, .size = sizeof flat->edges};
+    solids->edged = wgpuDeviceCreateBindGroup(
+        weir_gpu_wgpu_device(renderer->gpu),
+        &(WGPUBindGroupDescriptor){
+            .layout = renderer->texture_layouts[WEIR_TEXTURES_EDGES], .entryCount = 1, .entries = &entry});
+    return solids->edged != NULL;
+}
+
+static bool create_flat(WeirRenderer *renderer, const WeirScene *scene)
+{
+    WeirFlatShapes *flat = calloc(1, sizeof *flat);
+    if (!flat) return false;
+    weir_flat_shapes_of(flat, scene);
+    // Polygons with too many edges stay particles too.
+    bool any = !flat->failed && flat->count > 0;
+    bool good = !any || (create_edges(renderer, flat) &&
+                         create(renderer, flat->shapes, flat->count * sizeof *flat->shapes, flat->count));
+    free(flat);
+    return good;
 }
 
 WeirStatus weir_solids_prepare(WeirRenderer *renderer, const WeirScene *scene,
@@ -52,12 +104,7 @@ WeirStatus weir_solids_prepare(WeirRenderer *renderer, const WeirScene *scene,
     // A reference, so that no other simulation's buffer gets its address.
     wgpuBufferAddRef(particles->solids);
     solids->states = particles->solids;
-    WeirTriangles triangles;
-    weir_triangles_of(&triangles, scene);
-    // Those of a mesh too large for a buffer stay what they are made of: particles.
-    bool any = !triangles.failed && triangles.count > 0, good = !any || create(renderer, &triangles);
-    if (any) solids->corner_count = triangles.count;
-    weir_triangles_free(&triangles);
+    bool good = scene->dimension == 3 ? create_triangles(renderer, scene) : create_flat(renderer, scene);
     if (good) return WEIR_OK;
     release(solids);
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the shapes of the bodies.");

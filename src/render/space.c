@@ -73,7 +73,7 @@ static void release_sized(WeirSpace *space)
 void weir_space_release(WeirRenderer *renderer)
 {
     release_sized(&renderer->space);
-    for (int group = 0; group < WEIR_TEXTURE_GROUPS; group++) {
+    for (int group = WEIR_TEXTURES_LIGHT; group < WEIR_TEXTURE_GROUPS; group++) {
         if (renderer->texture_layouts[group]) wgpuBindGroupLayoutRelease(renderer->texture_layouts[group]);
     }
 }
@@ -172,7 +172,8 @@ static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing,
         WeirTextures textures = weir_effect_textures((WeirEffectKind)kind);
         if (textures == WEIR_TEXTURES_COMPOSE && drawing->water) textures = WEIR_TEXTURES_FINISH;
         if (renderer->effects & 1u << kind)
-            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, textures, 0, drawing);
+            weir_renderer_effect(renderer, pass, (WeirEffectKind)kind, renderer->space.groups[textures], 0,
+                                 drawing);
     }
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);
@@ -212,7 +213,7 @@ static void draw_number(WeirRenderer *renderer, const WeirDrawing *drawing, Weir
     WGPURenderPassColorAttachment color = cleared(renderer->space.views[texture]);
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
         drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
-    weir_renderer_effect(renderer, pass, kind, textures, number, drawing);
+    weir_renderer_effect(renderer, pass, kind, renderer->space.groups[textures], number, drawing);
     wgpuRenderPassEncoderEnd(pass);
     wgpuRenderPassEncoderRelease(pass);
 }

@@ -1,7 +1,7 @@
 // weir_frame [--water] SCENE.json|built-in OUT.ppm WIDTH HEIGHT TIME [COLOR_BY MIN MAX [ZOOM X Y [TOOL_PRESSED]]]
 // Draws one frame of a scene as the page would and writes it as a PPM file, to be looked at. The time is simulated
 // on the CPU, which is quicker than a software adapter; the picture comes from the device. In 3D, X and Y are the
-// camera's yaw and pitch in degrees; --water draws the fluid's surface in place of spheres.
+// camera's yaw and pitch in degrees; --water draws the fluid as water in place of particles.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

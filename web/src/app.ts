@@ -61,7 +61,7 @@ export class App implements PanelHost {
   readonly #known = new KnownCards(pageStore());
   #panel: Panel | null = null;
   #panelShown = true;
-  #styleAsked = false; // the user has chosen between water and particles
+  readonly #styleAsked = new Map<number, FluidStyle>(); // what the user has chosen, by dimension
   #canvas: HTMLCanvasElement | null = null;
   #engineToken = {};
   #recovering = false;
@@ -212,7 +212,8 @@ export class App implements PanelHost {
 
   // What else is slow, fewer particles would not mend.
   #drawPlainly(now: number, engine: Engine, factor: number): void {
-    if (!this.drawsWater() || this.fluidStyle !== FluidStyle.water || this.#styleAsked) return;
+    const { dimension } = this.store.scene;
+    if (dimension !== 3 || this.#styleAsked.has(3) || !this.drawsWater() || this.fluidStyle !== FluidStyle.water) return;
     this.#known.noteTooSlowForWater(engine.device);
     this.#showStyle();
     this.#panel?.refresh();
@@ -442,32 +443,39 @@ export class App implements PanelHost {
     view.colorBy = colorBy;
     chooseRange(view, this.store.scene, this.store.document);
     this.#legend.update(this.weir, view);
-    if (this.drawsWater()) this.setFluidStyle(FluidStyle.particles); // which alone have that colour
+    if (this.drawsWater() && this.store.scene.dimension === 3) this.showColors();
     this.#panel?.refresh();
   }
 
   drawsWater(): boolean {
-    return this.engine?.kind === 'gpu' && this.store.scene.dimension === 3;
+    return this.engine?.kind === 'gpu';
   }
   setFluidStyle(style: FluidStyle): void {
-    this.#styleAsked = true;
-    this.camera.view.fluidStyle = style;
+    this.#styleAsked.set(this.store.scene.dimension, style);
     this.#showStyle();
     this.#panel?.refresh();
   }
   toggleWater(): void {
     if (this.drawsWater()) this.setFluidStyle(this.fluidStyle === FluidStyle.water ? FluidStyle.particles : FluidStyle.water);
   }
-  // Water has no colour map, and where there is none no key for it. A processor that plays the graphics card is too slow
-  // for it unless it is asked for.
+  // Particles in 3D, where water has no colours.
+  showColors(): void {
+    this.#styleAsked.set(3, FluidStyle.particles);
+    this.#showStyle();
+  }
+  // Water in 3D has no legend, and without WebGPU there is no key for water. A processor that plays the graphics card is
+  // too slow for it unless it is asked for; a card may be so in 3D.
   #showStyle(): void {
     const { classList } = document.body;
-    if (!this.#styleAsked && this.engine?.kind === 'gpu') {
-      const isWater = this.#isCard() && this.#known.drawsWater(this.engine.device);
+    const { dimension } = this.store.scene;
+    const asked = this.#styleAsked.get(dimension);
+    if (asked !== undefined) this.camera.view.fluidStyle = asked;
+    else if (this.engine?.kind === 'gpu') {
+      const isWater = this.#isCard() && (dimension === 2 || this.#known.drawsWater(this.engine.device));
       this.camera.view.fluidStyle = isWater ? FluidStyle.water : FluidStyle.particles;
     }
     classList.toggle('may-be-water', this.drawsWater());
-    classList.toggle('water', this.drawsWater() && this.fluidStyle === FluidStyle.water);
+    classList.toggle('water', dimension === 3 && this.drawsWater() && this.fluidStyle === FluidStyle.water);
   }
 
   setRadius(radius: number): void {

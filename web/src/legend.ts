@@ -20,10 +20,10 @@ const captions: Record<ColorBy, string> = {
 const size = (vector: unknown): number => (Array.isArray(vector) ? Math.hypot(...vector.filter(Number.isFinite)) : 0);
 
 // The largest speed that the document itself names: of fluid thrown (which gets faster where its way is narrow), moving
-// walls, emitters.
+// walls, emitters. A sliding surface drags most of the fluid along at less than half its speed.
 function namedSpeed(document: SceneDocument): number {
   const fluid = (document.fluid ?? []).map((piece) => Math.max(1.4 * size(piece.velocity), piece.flow === 'taylor_green' ? (piece.flow_rate ?? 0) : 0));
-  const walls = (document.walls ?? []).map((wall) => Math.max(size(wall.surface_velocity), size(wall.motion?.velocity)));
+  const walls = (document.walls ?? []).map((wall) => Math.max(0.5 * size(wall.surface_velocity), size(wall.motion?.velocity)));
   const emitters = (document.emitters ?? []).map((emitter) => emitter.speed ?? 0);
   return Math.max(0, ...fluid, ...walls, ...emitters);
 }

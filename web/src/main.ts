@@ -5,7 +5,7 @@ import { obeyHost, tellHost } from './embedded.ts';
 import { colorNames } from './legend.ts';
 import { fetchScene, fetchSceneIndex, type SceneDocument, type SceneEntry } from './scene_document.ts';
 import type { Backend } from './start_engine.ts';
-import { FluidStyle, Weir } from './weir.ts';
+import { Weir } from './weir.ts';
 
 declare global {
   interface Window {
@@ -65,9 +65,12 @@ async function main(): Promise<void> {
   window.weir = app;
   const wantedColor = query.get('color');
   const color = colorNames[(wantedColor ?? 'speed').replaceAll(/[-_+]/g, ' ')];
-  if (color !== undefined) app.setColorBy(color);
-  else app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
-  if (wantedColor !== null && color !== undefined) app.setFluidStyle(FluidStyle.particles); // which alone have colours
+  if (color === undefined) {
+    app.notes.toast('error', `color: is "${wantedColor}"; must be one of ${Object.keys(colorNames).join(', ')}`);
+  } else {
+    app.setColorBy(color);
+    if (wantedColor !== null) app.showColors();
+  }
   if (trouble) {
     app.notes.toast('error', trouble);
     tellHost({ weir: 'error', message: trouble });

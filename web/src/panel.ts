@@ -119,7 +119,7 @@ export class Panel {
       (next) => host.setFluidStyle(Number(next)), 'How the fluid is drawn. Also by W.');
     this.#refreshers.push(() => (style.hidden = !host.drawsWater()));
     this.#addList(folder, 'colour by', colorNames, () => host.colorBy, (by) => host.setColorBy(Number(by)),
-      'The quantity that colours the particles. A choice shows them in place of water.');
+      'The quantity that colours the fluid. In 3D a choice shows particles in place of water, which has no colours.');
   }
 
   #addMethod(folder: FolderApi): void {

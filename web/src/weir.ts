@@ -69,7 +69,8 @@ export type CameraPose = {
   shift: [number, number]; // where the target appears: 0, 0 in the middle, 1, 1 at the top right
 };
 
-// How the fluid is drawn in 3D: coloured spheres, or clear water that shows no quantity.
+// How the fluid is drawn: coloured discs (2D) or spheres (3D); or as water, one body with a smooth surface, in 2D coloured too,
+// in 3D clear.
 export const enum FluidStyle { particles = 0, water = 1 }
 
 // What one frame shows; as WeirView in weir/weir_render.h.
@@ -84,7 +85,7 @@ export type View = {
   center: [number, number]; // 2D: m
   pixelsPerMeter: number; // 2D: device pixels
   camera: CameraPose; // 3D
-  fluidStyle?: FluidStyle; // 3D; particles if not given
+  fluidStyle?: FluidStyle; // particles if not given
 };
 
 // How a wall or body is drawn.

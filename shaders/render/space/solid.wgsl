@@ -1,15 +1,7 @@
-// Shared by the effects that draw walls and bodies as shapes: their corners, where the solver has them now.
+// Shared by the effects in 3D that draw walls and bodies as shapes: their corners, where the solver has them now.
 
 // WeirCorner (src/render/shape.h), in two vectors: place from the reference point, solid; normal, tone.
 @group(1) @binding(0) var<storage, read> corners: array<vec4f>;
-
-// WeirSolidState (src/core/world.h).
-struct SolidState {
-    position: vec4f,
-    orientation: vec4f,
-    unused: array<vec4f, 6>,
-}
-@group(1) @binding(1) var<storage, read> solid_state: array<SolidState>;
 
 struct Corner {
     point: vec3f, // m

@@ -328,6 +328,41 @@ for (const kind of browsers) {
       await tab.close();
     });
 
+    test('2D: water on WebGPU keeps its colours and its legend, W shows the particles', async () => {
+      const tab = await open('backend=gpu&scene=floating_2d&particles=1500', { size: { width: 640, height: 420, deviceScaleFactor: 1 } });
+      await tab.engine('gpu');
+      const shown = () => tab.evaluate(() => ({
+        style: window.weir.fluidStyle, legend: getComputedStyle(document.getElementById('legend')).visibility,
+        key: getComputedStyle(document.querySelector('#keys .water')).display !== 'none',
+        chosen: document.querySelector('select[aria-label="fluid"]').selectedOptions[0].textContent,
+      }));
+      await tab.frames(1);
+      await tab.evaluate(() => window.weir.setPaused(true));
+      const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
+      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
+      if (software) await tab.page.keyboard.press('w');
+      await tab.frames(3);
+      assert.deepEqual(await shown(), { style: 1, legend: 'visible', key: true, chosen: 'water' });
+      const water = await tab.pixels();
+      assert.ok(waterPixels(water) > 1000, `water covers ${waterPixels(water)} pixels`);
+      await tab.evaluate(() => window.weir.setColorBy(3));
+      await tab.frames(3);
+      assert.equal((await shown()).chosen, 'water');
+      const pressure = await tab.pixels();
+      assert.ok(changedPixels(water, pressure) > 500, `${changedPixels(water, pressure)} pixels changed`);
+      await tab.page.keyboard.press('w');
+      await tab.frames(3);
+      assert.deepEqual(await shown(), { style: 0, legend: 'visible', key: true, chosen: 'particles' });
+      const particles = await tab.pixels();
+      assert.ok(changedPixels(pressure, particles) > 500, `${changedPixels(pressure, particles)} pixels changed`);
+      // What is chosen in 2D leaves 3D alone.
+      await tab.evaluate(() => window.weir.loadScene('dam_3d'));
+      await tab.until('the other scene', () => window.weir.store.scene.dimension === 3 && window.weir.engine?.stats.frames > 0);
+      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
+      assert.equal(await tab.evaluate(() => document.querySelector('.note.error')?.textContent ?? ''), '', 'no complaint of its own');
+      await tab.close();
+    });
+
     test('3D: no water without WebGPU', async () => {
       const tab = await open('backend=cpu&scene=dam_3d&particles=500');
       await tab.frames(2);

@@ -344,3 +344,12 @@ test('the colours of the speed reach as far as the front of a dam break', () => 
     assert.ok(view.colorMax > 1.6 * Math.sqrt(9.81 * height), name);
   }
 });
+
+test('the colours of the speed show what a sliding lid drags along', () => {
+  const document = JSON.parse(readFileSync(join(root, 'scenes/lid_cavity.json'), 'utf8')) as SceneDocument;
+  const scene = weir.loadScene(document);
+  const { view } = new Camera();
+  chooseRange(view, scene, document);
+  scene.destroy();
+  assert.deepEqual([view.colorMin, view.colorMax], [0, 0.5]);
+});
