@@ -78,7 +78,7 @@ fn sky(direction: vec3f) -> vec3f {
     let side = 0.5 + 0.5 * dot(flat, glow_side);
     let glow = side * side * side;
     var light = mix(vec3f(0.026, 0.072, 0.185), mix(vec3f(0.125, 0.25, 0.46), vec3f(0.25, 0.36, 0.50), glow), exp(-3.6 * height));
-    light += vec3f(0.92, 0.46, 0.18) * (0.06 + 0.94 * glow) * exp(-7.0 * height);
+    light += vec3f(0.62, 0.33, 0.16) * (0.06 + 0.94 * glow) * exp(-7.0 * height);
     // Clouds on a ceiling, long across the glow; far ones melt into the haze.
     let place = direction.xz / (height + 0.10);
     let along = vec2f(dot(place, vec2f(-glow_side.y, glow_side.x)), 2.6 * dot(place, glow_side));
@@ -94,7 +94,7 @@ const floor_tone = vec3f(0.038, 0.056, 0.086); // of the light on it
 // The floor's share of the light that comes from the sky as from a polished stone, seen along `direction`.
 fn floor_gloss(direction: vec3f) -> f32 {
     let facing = clamp(-direction.y, 0.0, 1.0);
-    return 0.012 + 0.95 * pow(1.0 - facing, 20.0);
+    return 0.012 + 0.55 * pow(1.0 - facing, 48.0);
 }
 
 // Linear light of what lies around, in a direction: the sky, the floor far away.
