@@ -42,9 +42,12 @@ export const browsers = [chromium, firefox].filter((browser) => wanted.includes(
 
 export const launch = (browser) => puppeteer.launch({ ...browser.options, protocolTimeout: 120_000 });
 
+// Half a pixel per point: the browsers draw in software, and Tab.pixels() looks at fewer pixels still.
+export const pixelRatio = 0.5;
+
 // A tab that remembers every error its console showed.
 export class Tab {
-  static async open(browser, url, { setUp, size = { width: 1000, height: 640, deviceScaleFactor: 1 } } = {}) {
+  static async open(browser, url, { setUp, size = { width: 1000, height: 640, deviceScaleFactor: pixelRatio } } = {}) {
     const page = await browser.newPage();
     const tab = new Tab(page);
     page.on('console', (message) => {

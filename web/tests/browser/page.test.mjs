@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { browsers, changedPixels, launch, Tab, waterPixels } from './browsers.mjs';
+import { browsers, changedPixels, launch, pixelRatio, Tab, waterPixels } from './browsers.mjs';
 import { serve } from './server.mjs';
 
 const results = fileURLToPath(new URL('../../test-results/', import.meta.url));
@@ -250,7 +250,7 @@ for (const kind of browsers) {
 
     for (const backend of ['gpu', 'cpu']) {
       test(`3D: alive, turned by a drag, stirred on the fluid (${backend})`, async () => {
-        const size = { width: 640, height: 420, deviceScaleFactor: 1 };
+        const size = { width: 640, height: 420, deviceScaleFactor: pixelRatio };
         const tab = await open(`backend=${backend}&scene=dam_3d&particles=500`, { size });
         await tab.frames(1);
         await tab.evaluate(() => window.weir.togglePanel());
@@ -294,7 +294,7 @@ for (const kind of browsers) {
     }
 
     test('3D: water on WebGPU, particles by W, in the panel and for a colour', async () => {
-      const size = { width: 640, height: 420, deviceScaleFactor: 1 };
+      const size = { width: 640, height: 420, deviceScaleFactor: pixelRatio };
       const tab = await open('backend=gpu&scene=dam_3d&particles=500', { size });
       await tab.engine('gpu');
       const shown = () => tab.evaluate(() => ({
@@ -424,7 +424,7 @@ for (const kind of browsers) {
     });
 
     test('canvas follows size and pixel ratio', async () => {
-      const tab = await open('backend=cpu&particles=1000');
+      const tab = await open('backend=cpu&particles=1000', { size: { width: 1000, height: 640, deviceScaleFactor: 1 } });
       await tab.frames(1);
       const size = () => tab.evaluate(() => {
         const canvas = document.querySelector('#stage canvas');
