@@ -377,7 +377,8 @@ for (const kind of browsers) {
     });
 
     test('probes grow their plots', async () => {
-      const tab = await open('backend=cpu&scene=dam_2d&particles=800');
+      const size = { width: 1000, height: 640, deviceScaleFactor: 1 };
+      const tab = await open('backend=cpu&scene=dam_2d&particles=800', { size });
       await tab.until('samples', () => (window.weir?.engine?.stats.probes[0]?.times.length ?? 0) > 5);
       const { front, plots } = await tab.evaluate(() => ({
         front: window.weir.engine.stats.probes[0].values[0], plots: document.querySelectorAll('#probes canvas').length,
