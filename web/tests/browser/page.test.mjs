@@ -585,7 +585,7 @@ for (const kind of browsers) {
     });
 
     if (kind.name !== 'chromium') return;
-    // docs/page.webp was made the same way, with more particles and on WebGPU, which takes a software adapter long.
+    // To be looked at.
     test('picture of the page', async () => {
       const size = { width: 1600, height: 900, deviceScaleFactor: 1 };
       const tab = await open('backend=cpu&scene=floating_3d&particles=2500', { size });
