@@ -5,6 +5,7 @@
 #include "core/scene_shape.h"
 #include "core/world_build.h"
 #include "render/frame.h"
+#include "render/shape.h"
 
 static void add_edges(WeirFlatShapes *flat, WeirFlatShape *to, const WeirShape *shape, const double origin[3])
 {
@@ -46,12 +47,9 @@ void weir_flat_shapes_of(WeirFlatShapes *flat, const WeirScene *scene)
 {
     flat->count = flat->edge_count = 0;
     flat->failed = false;
-    uint32_t pieces = scene->wall_count + scene->body_count;
-    uint32_t first = weir_scene_first_wall(scene);
-    for (uint32_t n = 0; n < pieces; n++) {
-        bool is_body = n >= scene->wall_count;
-        const WeirSolidPiece *piece = is_body ? &scene->body[n - scene->wall_count] : &scene->wall[n];
-        if (weir_scene_look(scene, first + n) != WEIR_LOOK_HIDDEN)
-            add_piece(flat, scene, piece, first + n, is_body);
+    for (uint32_t n = 0; n < scene->wall_count + scene->body_count; n++) {
+        const WeirSolidPiece *piece = weir_shown_piece(scene, n);
+        uint32_t solid = weir_scene_first_wall(scene) + n;
+        if (piece) add_piece(flat, scene, piece, solid, n >= scene->wall_count);
     }
 }

@@ -267,16 +267,19 @@ static void add_piece(WeirTriangles *triangles, const WeirScene *scene, const We
     }
 }
 
+const WeirSolidPiece *weir_shown_piece(const WeirScene *scene, uint32_t n)
+{
+    if (weir_scene_look(scene, weir_scene_first_wall(scene) + n) == WEIR_LOOK_HIDDEN) return NULL;
+    return n < scene->wall_count ? &scene->wall[n] : &scene->body[n - scene->wall_count];
+}
+
 void weir_triangles_of(WeirTriangles *triangles, const WeirScene *scene)
 {
     *triangles = (WeirTriangles){.corners = NULL};
-    uint32_t pieces = scene->wall_count + scene->body_count;
-    uint32_t first = weir_scene_first_wall(scene);
-    for (uint32_t n = 0; n < pieces; n++) {
-        bool is_body = n >= scene->wall_count;
-        const WeirSolidPiece *piece = is_body ? &scene->body[n - scene->wall_count] : &scene->wall[n];
-        if (weir_scene_look(scene, first + n) != WEIR_LOOK_HIDDEN)
-            add_piece(triangles, scene, piece, first + n, is_body);
+    for (uint32_t n = 0; n < scene->wall_count + scene->body_count; n++) {
+        const WeirSolidPiece *piece = weir_shown_piece(scene, n);
+        uint32_t solid = weir_scene_first_wall(scene) + n;
+        if (piece) add_piece(triangles, scene, piece, solid, n >= scene->wall_count);
     }
 }
 

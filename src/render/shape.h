@@ -18,6 +18,8 @@ typedef struct WeirTriangles {
     bool failed; // no memory, or more than a device's buffer holds
 } WeirTriangles;
 
+// Wall or body `n` of a scene, walls first; NULL if it is hidden (weir_scene_look()).
+const WeirSolidPiece *weir_shown_piece(const WeirScene *scene, uint32_t n);
 // Those of all walls and bodies of a scene in 3D that are drawn (weir_scene_look()). What of a fixed box lies outside
 // the domain is cut off.
 void weir_triangles_of(WeirTriangles *triangles, const WeirScene *scene);

@@ -7,6 +7,7 @@
 #include "common/build.h"
 #include "image.h"
 #include "render/renderer.h"
+#include "styles.h"
 #include "upload.h"
 
 enum { SIZE = 160 };
@@ -502,40 +503,11 @@ static void still_water_mirrors_the_horizon(void **state)
     weir_sim_destroy(sim);
 }
 
-// One renderer, both styles and several sizes in turn: textures and pipelines come and go, and the picture stays.
 static void styles_and_sizes_change(void **state)
 {
-    WeirGpu *gpu = *state;
     WeirSim *sim = pool(false);
-    WeirGpuParticles particles;
-    assert_true(weir_upload(gpu, sim, &particles));
-    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
-    const struct {
-        uint32_t width, height;
-        WeirFluidStyle style;
-    } frames[] = {{64, 48, WEIR_FLUID_WATER},
-                  {64, 48, WEIR_FLUID_PARTICLES},
-                  {1, 1, WEIR_FLUID_WATER},
-                  {97, 33, WEIR_FLUID_WATER},
-                  {64, 48, WEIR_FLUID_WATER}};
-    enum { FRAMES = sizeof frames / sizeof *frames };
-    WeirImage images[FRAMES];
-    for (int k = 0; k < FRAMES; k++) {
-        WeirView view = view_of(frames[k].style);
-        assert_true(weir_image_create(&images[k], gpu, WGPUTextureFormat_RGBA8Unorm, frames[k].width,
-                                      frames[k].height));
-        assert_int_equal(weir_renderer_draw_particles(renderer, sim, &particles, &view, images[k].view,
-                                                      frames[k].width, frames[k].height),
-                         WEIR_OK);
-        assert_true(weir_image_read(&images[k]));
-    }
-    assert_memory_equal(images[0].pixels, images[FRAMES - 1].pixels, (size_t)4 * 64 * 48);
-    assert_memory_not_equal(images[0].pixels, images[1].pixels, (size_t)4 * 64 * 48);
-    for (int k = 0; k < FRAMES; k++) weir_image_destroy(&images[k]);
-    weir_renderer_destroy(renderer);
-    weir_upload_release(&particles);
+    weir_test_styles_and_sizes(*state, sim, view_of);
     weir_sim_destroy(sim);
-    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
 }
 
 static void unknown_styles_are_refused(void **state)

@@ -139,7 +139,7 @@ fn leaving(point: vec3f, bent: vec3f) -> Leaving {
     var under = 0.0; // the surface, how much of the way
     for (var k = 1; k <= 5; k++) {
         let place = point + bent * (way * f32(k) / 5.0);
-        let depth = height_texel(on_floor(place) * height_size) - (place.y - frame.domain_min.y);
+        let depth = near_water_height(place) - (place.y - frame.domain_min.y);
         under += 0.2 * smoothstep(-1.5, 0.5, depth / frame.spacing);
     }
     let share = smoothstep(0.30, 0.80, under);

@@ -46,34 +46,33 @@ fn lit_roughly(point: vec3f) -> f32 {
     return lit;
 }
 
-fn height_texel(at: vec2f) -> f32 {
-    let last = vec2f(textureDimensions(height_map)) - 1.0;
-    return textureLoad(height_map, vec2u(clamp(at, vec2f(0.0), last)), 0).x;
+fn texel_of(map: texture_2d<f32>, at: vec2f) -> vec4f {
+    return textureLoad(map, vec2u(clamp(at, vec2f(0.0), vec2f(textureDimensions(map)) - 1.0)), 0);
 }
 
-// Height of the water's surface above the domain's bottom at a place, between four texels, m.
+// Of a map of the floor, between four texels.
+fn above_floor(map: texture_2d<f32>, point: vec3f) -> vec4f {
+    let place = on_floor(point) * vec2f(textureDimensions(map)) - 0.5;
+    let corner = floor(place);
+    let part = place - corner;
+    let above = mix(texel_of(map, corner), texel_of(map, corner + vec2f(1.0, 0.0)), part.x);
+    let below = mix(texel_of(map, corner + vec2f(0.0, 1.0)), texel_of(map, corner + 1.0), part.x);
+    return mix(above, below, part.y);
+}
+
+// Height of the water's surface above the domain's bottom at a place, m; the nearest texel's.
+fn near_water_height(point: vec3f) -> f32 {
+    return texel_of(height_map, on_floor(point) * height_size).x;
+}
+
+// The same between texels.
 fn water_height(point: vec3f) -> f32 {
-    let place = on_floor(point) * vec2f(textureDimensions(height_map)) - 0.5;
-    let corner = floor(place);
-    let part = place - corner;
-    let above = mix(height_texel(corner), height_texel(corner + vec2f(1.0, 0.0)), part.x);
-    let below = mix(height_texel(corner + vec2f(0.0, 1.0)), height_texel(corner + 1.0), part.x);
-    return mix(above, below, part.y);
+    return above_floor(height_map, point).x;
 }
 
-fn caustics_texel(at: vec2f) -> vec3f {
-    let last = vec2f(textureDimensions(caustics_map)) - 1.0;
-    return textureLoad(caustics_map, vec2u(clamp(at, vec2f(0.0), last)), 0).rgb;
-}
-
-// Sunlight on the floor under the water, 1 where nothing has bent or absorbed it; between four texels.
+// Sunlight on the floor under the water, 1 where nothing has bent or absorbed it.
 fn caustics_at(point: vec3f) -> vec3f {
-    let place = on_floor(point) * vec2f(textureDimensions(caustics_map)) - 0.5;
-    let corner = floor(place);
-    let part = place - corner;
-    let above = mix(caustics_texel(corner), caustics_texel(corner + vec2f(1.0, 0.0)), part.x);
-    let below = mix(caustics_texel(corner + vec2f(0.0, 1.0)), caustics_texel(corner + 1.0), part.x);
-    return mix(above, below, part.y);
+    return above_floor(caustics_map, point).rgb;
 }
 
 // Share of the sunlight that arrives at a point above the floor, which the water over it bends and absorbs.
@@ -81,7 +80,7 @@ fn sunlight_at(point: vec3f) -> vec3f {
     let place = on_floor(point);
     if frame.water == 0u || any(place < vec2f(0.0)) || any(place > vec2f(1.0)) { return vec3f(1.0); }
     let height = point.y - frame.domain_min.y;
-    let surface = height_texel(place * height_size); // smooth enough for light
+    let surface = near_water_height(point); // smooth enough for light
     if surface <= height { return vec3f(1.0); }
     let ray = sun_in_water();
     let rest = max(height, 0.0) / -ray.y; // to the floor, on which the waves have gathered the light most

@@ -293,6 +293,16 @@ for (const kind of browsers) {
       });
     }
 
+    // The test's adapter is mostly one in software, which starts with particles.
+    const pauseAsWater = async (tab, shown) => {
+      await tab.frames(1);
+      await tab.evaluate(() => window.weir.setPaused(true));
+      const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
+      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
+      if (software) await tab.page.keyboard.press('w');
+      await tab.frames(3);
+    };
+
     test('3D: water on WebGPU, particles by W, in the panel and for a colour', async () => {
       const size = { width: 640, height: 420, deviceScaleFactor: pixelRatio };
       const tab = await open('backend=gpu&scene=dam_3d&particles=500', { size });
@@ -301,13 +311,7 @@ for (const kind of browsers) {
         water: document.body.classList.contains('water'), legend: getComputedStyle(document.getElementById('legend')).visibility,
         chosen: document.querySelector('select[aria-label="fluid"]').selectedOptions[0].textContent,
       }));
-      await tab.frames(1);
-      await tab.evaluate(() => window.weir.setPaused(true));
-      // The test's adapter is mostly one in software, which starts with particles.
-      const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
-      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
-      if (software) await tab.page.keyboard.press('w');
-      await tab.frames(3);
+      await pauseAsWater(tab, shown);
       assert.deepEqual(await shown(), { water: true, legend: 'hidden', chosen: 'water' });
       const water = await tab.pixels();
       assert.ok(waterPixels(water) > 300, `water covers ${waterPixels(water)} pixels`);
@@ -336,12 +340,7 @@ for (const kind of browsers) {
         key: getComputedStyle(document.querySelector('#keys .water')).display !== 'none',
         chosen: document.querySelector('select[aria-label="fluid"]').selectedOptions[0].textContent,
       }));
-      await tab.frames(1);
-      await tab.evaluate(() => window.weir.setPaused(true));
-      const software = await tab.evaluate(() => window.weir.engine.gpu.isSoftware);
-      assert.equal((await shown()).chosen, software ? 'particles' : 'water');
-      if (software) await tab.page.keyboard.press('w');
-      await tab.frames(3);
+      await pauseAsWater(tab, shown);
       assert.deepEqual(await shown(), { style: 1, legend: 'visible', key: true, chosen: 'water' });
       const water = await tab.pixels();
       assert.ok(waterPixels(water) > 1000, `water covers ${waterPixels(water)} pixels`);
