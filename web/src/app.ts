@@ -28,6 +28,7 @@ export type AppOptions = {
 const restartDelayMs = 150; // of the last change, so that dragging a slider does not restart at every pixel
 const adviceMs = 3000;
 const secondLossMs = 10_000; // a device lost again so soon is not asked for a third time
+const slowestDisplayMs = 1000 / 60; // what takes longer from frame to frame is late
 // What the C solver, on one core, still moves at a rate that one likes to watch.
 const cpuParticles = { 2: 5000, 3: 4000 } as const;
 const panelWidth = 304; // CSS pixels
@@ -71,7 +72,7 @@ export class App implements PanelHost {
   #lastGood: SceneDocument; // that an engine runs
   #lastLoss = -Infinity;
   #lastFrame = 0;
-  #interval = 1000 / 60; // ms between animation frames, averaged
+  #interval = slowestDisplayMs; // ms between animation frames, averaged
   #plotted: unknown = null;
   #advice = ''; // as last seen
   #fastSince = 0; // the fluid is too fast or too compressed, ms
@@ -586,7 +587,7 @@ export class App implements PanelHost {
     requestAnimationFrame(this.#frame);
     const elapsed = this.#lastFrame > 0 ? now - this.#lastFrame : 0;
     this.#lastFrame = now;
-    if (elapsed > 4) this.#interval += 0.05 * (Math.min(elapsed, 20) - this.#interval);
+    if (elapsed > 4) this.#interval += 0.05 * (Math.min(elapsed, slowestDisplayMs) - this.#interval);
     const engine = this.engine;
     if (!engine) return;
     this.#resizeCanvas();

@@ -10,7 +10,7 @@ import { canResume, type SceneDocument } from './scene_document.ts';
 import { Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
 const framesInFlight = 2;
-const longestFrameMs = 50; // that counts for a frame's budget
+const longestFrameMs = 51; // three of a display with 60 per second
 const snapshotMs = 1000;
 const pickMs = 300; // in 3D, where the pointer looks for the fluid in the snapshot
 const passTimesMs = 500;
@@ -51,14 +51,13 @@ export class GpuEngine implements Engine {
   readonly #renderer: Renderer;
   readonly #canvas: HTMLCanvasElement;
   readonly #onFault: FaultHandler;
-  readonly #pace = new Pace();
+  readonly #pace = new Pace(longestFrameMs);
   #sim: Sim | null = null;
   #creating: Promise<Sim> | null = null; // the next one
   #inFlight = 0;
   #owedWall = 0; // of animation frames that were skipped
   #lastDone = 0;
-  #budgetMs = 14;
-  #frameMs = 0; // between animation frames, averaged
+  #intervalMs = 1000 / 60; // the display's
   // Of the frames under way, oldest first.
   readonly #sent = new Float64Array(framesInFlight);
   readonly #sentSteps = new Int32Array(framesInFlight);
@@ -177,10 +176,7 @@ export class GpuEngine implements Engine {
   frame(wallSeconds: number, intervalMs: number, tool: Tool, view: View): void {
     const sim = this.#sim;
     if (!sim || this.#destroyed || this.#leaving) return;
-    // Where frames are rarer than the display's, each has as much more time for steps, if the device tells what these take.
-    const wallMs = Math.min(1000 * wallSeconds, longestFrameMs);
-    if (wallMs > 0) this.#frameMs += 0.05 * (wallMs - this.#frameMs);
-    this.#budgetMs = 0.85 * (this.#deviceMs() > 0 ? Math.max(intervalMs, this.#frameMs) : intervalMs);
+    this.#intervalMs = intervalMs;
     this.#owedWall += wallSeconds;
     if (!this.#poll(sim) || this.#inFlight >= framesInFlight || this.#standsStill(wallSeconds, view)) return;
     try {
@@ -221,7 +217,7 @@ export class GpuEngine implements Engine {
   readonly #done = (): void => {
     const now = performance.now();
     const begin = Math.max(this.#sent[0] as number, this.#lastDone);
-    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#budgetMs, this.#deviceMs());
+    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#intervalMs, this.#deviceMs());
     this.#lastDone = now;
     this.#sent.copyWithin(0, 1);
     this.#sentSteps.copyWithin(0, 1);

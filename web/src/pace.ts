@@ -1,20 +1,26 @@
-// How many steps a frame may take. Where the device tells what a step takes, they fill the frame's budget, less while frames
-// come late. Else from the time that the last frames took: a frame costs something without any step (drawing) and
-// something per step; both are fitted, so that costly drawing does not pass for costly steps.
+// How many steps a frame may take: what fits beside all else that a frame takes (drawing above all), so that frames keep to
+// the display's. Where that is too little, a frame lasts two of the display's, or three: better fewer frames than slow
+// motion. What a step takes the device tells, or the last frames do: they take something without any step and something
+// per step, and a line is fitted to both.
 
 const mostSteps = 1024;
-const leastShare = 0.6; // of the budget: where drawing alone eats it, the fluid still gets that
-const lateness = 1.35; // of the budget, which is less than a frame
+const usable = 0.97; // of a frame
+// Shares of a frame for its steps. Between the first two it stays as long as it is: how late a browser tells of a frame's end
+// depends on whether the device waits for the display.
+const tooLittle = 0.35;
+const plenty = 0.65;
+const leastShare = 0.5; // of a frame that may not last longer
 const memory = 0.95; // weight of a frame relative to the next one
 const probeEvery = 8; // frames; a few more steps then, or all frames would be alike and the fit could not tell
 
 export class Pace {
   maxSteps = 2; // careful at the start: a step may be slow here
   stepMs = 0; // milliseconds per step; 0: not known yet
+  readonly #longestMs: number;
   #limit = 2;
-  #share = 1; // of the budget that is filled
-  #meanMs = 0; // of the last frames
+  #intervals = 1; // of the display that a frame lasts
   #frames = 0;
+  #told = false; // by the device
   // Weighted sums over the last frames: number, steps, their square, milliseconds, product.
   #n = 0;
   #x = 0;
@@ -22,21 +28,23 @@ export class Pace {
   #y = 0;
   #xy = 0;
 
-  // A frame with `steps` steps took `ms`; it may spend `budgetMs`. `deviceMs`: of a step, by the device's clock; 0: not known.
-  measured(steps: number, ms: number, budgetMs: number, deviceMs = 0): void {
+  // `longestMs`: up to which frames may last longer than the display's.
+  constructor(longestMs = 0) {
+    this.#longestMs = longestMs;
+  }
+
+  // A frame with `steps` steps took `ms`. `deviceMs`: of a step, by the device's clock; 0: not known.
+  measured(steps: number, ms: number, intervalMs: number, deviceMs = 0): void {
     if (!(ms >= 0)) return;
-    if (deviceMs > 0) {
-      this.#frames++;
-      this.stepMs = deviceMs;
-      // What a frame takes besides, and how late the browser tells of its end, nobody knows: where frames come late, they get
-      // fewer steps.
-      this.#meanMs += 0.1 * (Math.min(ms, 4 * budgetMs) - this.#meanMs);
-      const isLate = this.#meanMs > lateness * budgetMs && 2 * steps > this.maxSteps;
-      this.#share = Math.min(Math.max(this.#share * (isLate ? 0.98 : 1.005), leastShare), 1);
-      this.#grow(Math.floor((this.#share * budgetMs) / deviceMs));
-      this.maxSteps = this.#limit;
-      return;
-    }
+    if (deviceMs > 0 && !this.#told) this.#forget(); // frames until then were busy with other things
+    this.#told = deviceMs > 0;
+    this.#add(steps, ms);
+    if (this.#told) this.stepMs = deviceMs;
+    else this.#fit();
+    if (this.stepMs > 0) this.#limitSteps(intervalMs);
+  }
+
+  #add(steps: number, ms: number): void {
     const mean = this.#n > 0 ? this.#y / this.#n : ms;
     const kept = this.#frames > 4 ? Math.min(ms, 4 * mean) : ms; // a hiccup says nothing about steps
     this.#n = memory * this.#n + 1;
@@ -45,8 +53,6 @@ export class Pace {
     this.#y = memory * this.#y + kept;
     this.#xy = memory * this.#xy + steps * kept;
     this.#frames++;
-    this.#fit();
-    if (this.stepMs > 0) this.#limitSteps(budgetMs);
   }
 
   #fit(): void {
@@ -64,22 +70,34 @@ export class Pace {
     this.stepMs = Math.max(this.stepMs, 1e-4);
   }
 
-  #limitSteps(budgetMs: number): void {
+  #limitSteps(intervalMs: number): void {
     const fixed = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
-    this.#grow(Math.floor(Math.max(budgetMs - fixed, leastShare * budgetMs) / this.stepMs));
-    const probe = this.#frames % probeEvery === 0 ? Math.max(1, this.#limit >> 2) : 0;
+    const affordable = Math.floor(this.#roomBeside(fixed, intervalMs) / this.stepMs);
+    // Grows gently, because a few steps say little about many; shrinks at once.
+    this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
+    const probe = !this.#told && this.#frames % probeEvery === 0 ? Math.max(1, this.#limit >> 2) : 0;
     this.maxSteps = Math.min(this.#limit + probe, mostSteps);
   }
 
-  // Gently, because a few steps say little about many; shrinks at once.
-  #grow(affordable: number): void {
-    this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
+  // Milliseconds for steps in a frame that takes `fixedMs` without any.
+  #roomBeside(fixedMs: number, intervalMs: number): number {
+    const share = (intervals: number): number => usable - fixedMs / (intervals * intervalMs);
+    const isLongest = (): boolean => (this.#intervals + 1) * intervalMs > this.#longestMs;
+    while (share(this.#intervals) < tooLittle && !isLongest()) this.#intervals++;
+    while (this.#intervals > 1 && share(this.#intervals - 1) > plenty) this.#intervals--;
+    const room = share(this.#intervals);
+    return this.#intervals * intervalMs * (isLongest() ? Math.max(room, leastShare) : room);
+  }
+
+  #forget(): void {
+    this.#frames = this.#n = this.#x = this.#xx = this.#y = this.#xy = 0;
   }
 
   reset(): void {
     this.maxSteps = this.#limit = 2;
-    this.#share = 1;
-    this.#meanMs = 0;
-    this.stepMs = this.#frames = this.#n = this.#x = this.#xx = this.#y = this.#xy = 0;
+    this.#intervals = 1;
+    this.#told = false;
+    this.stepMs = 0;
+    this.#forget();
   }
 }
