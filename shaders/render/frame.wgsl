@@ -53,6 +53,7 @@ struct Frame {
     field_texel: u32,            // 2D: of the field that the water is made of, pixels
     photon_columns: u32,         // 3D: caustics.wgsl
     photon_rows: u32,
+    all_shown: u32,              // 3D: 1 where nobody is left out (crowd_gather.wgsl)
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

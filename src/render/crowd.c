@@ -1,4 +1,5 @@
-// How crowded it is around each particle of water, counted on the device before it is drawn: lonely ones are drops.
+// How crowded it is around each particle, counted on the device before it is drawn: lonely ones are drops of the water, and
+// those whom others hide on all sides are left out.
 #include "render/renderer.h"
 
 #include <math.h>
@@ -16,8 +17,12 @@ enum {
     MOST_CELLS = 1 << 22,
     CELL_BYTES = 16,
     VALUE_BYTES = 8, // of a particle
+    BINDINGS = 4,
     STAGES = WEIR_CROWD_STAGES,
 };
+
+// Vertices of each instance, instances, and where they begin; crowd_gather counts the instances.
+static const uint32_t draw_none[4] = {4, 0, 0, 0};
 
 static void release_buffer(WGPUBuffer *buffer)
 {
@@ -34,6 +39,8 @@ static void release_buffers(WeirCrowd *crowd)
     crowd->group = NULL;
     release_buffer(&crowd->cells);
     release_buffer(&crowd->values);
+    release_buffer(&crowd->shown);
+    release_buffer(&crowd->draw);
     crowd->count = crowd->cell_count = 0;
 }
 
@@ -51,14 +58,14 @@ void weir_crowd_release(WeirRenderer *renderer)
 
 static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
 {
-    WGPUBindGroupLayoutEntry entries[2];
-    for (uint32_t k = 0; k < 2; k++) {
+    WGPUBindGroupLayoutEntry entries[BINDINGS];
+    for (uint32_t k = 0; k < BINDINGS; k++) {
         entries[k] = (WGPUBindGroupLayoutEntry){.binding = k,
                                                 .visibility = WGPUShaderStage_Compute,
                                                 .buffer = {.type = WGPUBufferBindingType_Storage}};
     }
     renderer->crowd.layout = wgpuDeviceCreateBindGroupLayout(
-        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 2, .entries = entries});
+        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = BINDINGS, .entries = entries});
     WGPUBindGroupLayout groups[3] = {renderer->frame_layout, renderer->particle_layout,
                                      renderer->crowd.layout};
     renderer->crowd.pipeline_layout = wgpuDeviceCreatePipelineLayout(
@@ -97,17 +104,27 @@ static uint32_t cells_for(const WeirFrame *frame)
 static bool create_buffers(WeirCrowd *crowd, WGPUDevice device, uint32_t count, uint32_t cell_count)
 {
     release_buffers(crowd);
-    crowd->cells = wgpuDeviceCreateBuffer(
-        device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage | WGPUBufferUsage_CopyDst,
-                                        .size = (uint64_t)CELL_BYTES * cell_count});
-    crowd->values =
-        wgpuDeviceCreateBuffer(device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage,
-                                                               .size = (uint64_t)VALUE_BYTES * count});
-    if (!crowd->cells || !crowd->values) return false;
-    WGPUBindGroupEntry entries[2] = {{.binding = 0, .buffer = crowd->cells, .size = WGPU_WHOLE_SIZE},
-                                     {.binding = 1, .buffer = crowd->values, .size = WGPU_WHOLE_SIZE}};
+    const WGPUBufferUsage storage = WGPUBufferUsage_Storage | WGPUBufferUsage_CopyDst;
+    const struct {
+        WGPUBuffer *buffer;
+        WGPUBufferUsage usage;
+        uint64_t size;
+    } wanted[BINDINGS] = {
+        {&crowd->cells, storage, (uint64_t)CELL_BYTES * cell_count},
+        {&crowd->values, storage, (uint64_t)VALUE_BYTES * count},
+        {&crowd->shown, storage, sizeof(uint32_t) * (uint64_t)count},
+        {&crowd->draw, storage | WGPUBufferUsage_Indirect | WGPUBufferUsage_CopySrc, sizeof draw_none},
+    };
+    WGPUBindGroupEntry entries[BINDINGS];
+    for (uint32_t k = 0; k < BINDINGS; k++) {
+        *wanted[k].buffer = wgpuDeviceCreateBuffer(
+            device, &(WGPUBufferDescriptor){.usage = wanted[k].usage, .size = wanted[k].size});
+        if (!*wanted[k].buffer) return false;
+        entries[k] = (WGPUBindGroupEntry){.binding = k, .buffer = *wanted[k].buffer, .size = WGPU_WHOLE_SIZE};
+    }
     crowd->group = wgpuDeviceCreateBindGroup(
-        device, &(WGPUBindGroupDescriptor){.layout = crowd->layout, .entryCount = 2, .entries = entries});
+        device,
+        &(WGPUBindGroupDescriptor){.layout = crowd->layout, .entryCount = BINDINGS, .entries = entries});
     crowd->count = count;
     crowd->cell_count = cell_count;
     return crowd->group != NULL;
@@ -128,8 +145,7 @@ WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, ui
         good = create_buffers(crowd, device, needed, cell_count);
     if (good) return WEIR_OK;
     release_buffers(crowd);
-    return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory to draw %u particles as water.",
-                     count);
+    return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory to draw %u particles.", count);
 }
 
 void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
@@ -138,6 +154,7 @@ void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBi
     const WeirCrowd *crowd = &renderer->crowd;
     uint32_t groups = (count + GROUP_SIZE - 1) / GROUP_SIZE;
     uint32_t rows = (groups + GROUPS_PER_ROW - 1) / GROUPS_PER_ROW;
+    wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(renderer->gpu), crowd->draw, 0, draw_none, sizeof draw_none);
     if (groups == 0) return;
     wgpuCommandEncoderClearBuffer(encoder, crowd->cells, 0, (uint64_t)CELL_BYTES * crowd->cell_count);
     WGPUComputePassEncoder pass =

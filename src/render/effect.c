@@ -23,7 +23,7 @@ extern const char weir_wgsl_render_space_solid_shadow[], weir_wgsl_common_rotati
 extern const char weir_wgsl_render_space_hollows[], weir_wgsl_render_space_liquid[];
 extern const char weir_wgsl_render_space_lens[], weir_wgsl_render_space_height[];
 extern const char weir_wgsl_render_space_calm[], weir_wgsl_render_space_caustics[];
-extern const char weir_wgsl_render_space_surface[];
+extern const char weir_wgsl_render_space_surface[], weir_wgsl_render_space_shown[];
 extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
 extern const char weir_wgsl_render_space_clear_water[], weir_wgsl_render_space_front_edges[];
 
@@ -65,6 +65,7 @@ typedef struct Effect {
 #define SOLID_STATE              weir_wgsl_render_solid_state
 #define SOLID                    weir_wgsl_render_space_solid
 #define HOLLOWS                  weir_wgsl_render_space_hollows
+#define SHOWN                    weir_wgsl_render_space_shown
 #define LIQUID                   weir_wgsl_render_space_liquid
 #define BUMP                     weir_wgsl_render_bump
 #define EDGE                     weir_wgsl_render_space_edge
@@ -81,8 +82,8 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_FLAT_SOLIDS] = EFFECT("flat_solids", flat_solids, .textures = WEIR_TEXTURES_EDGES,
                                        .shared = {ROTATION, SOLID_STATE}, .blends = true),
     [WEIR_EFFECT_OVERLAY] = EFFECT("overlay", overlay, .blends = true),
-    [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .particles = true,
-                                  .tests_depth = true, .writes_depth = true),
+    [WEIR_EFFECT_SHADOW] = EFFECT("shadow", space_shadow, .target = TARGET_SHADOW, .shared = {SHOWN},
+                                  .particles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SOLID_SHADOW] = EFFECT("solid_shadow", space_solid_shadow, .target = TARGET_SHADOW,
                                         .shared = {ROTATION, SOLID_STATE, SOLID}, .triangles = true,
                                         .tests_depth = true, .writes_depth = true),
@@ -96,7 +97,7 @@ static const Effect effects[WEIR_EFFECTS] = {
                .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SPHERES] =
         EFFECT("spheres", space_spheres, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LENS, LIGHT, GLOSS, SPHERE, LIQUID}, .particles = true, .tests_depth = true,
+               .shared = {LENS, LIGHT, GLOSS, SPHERE, LIQUID, SHOWN}, .particles = true, .tests_depth = true,
                .writes_depth = true, .covers = true),
     [WEIR_EFFECT_EDGES] = EFFECT("edges", space_edges, .target = TARGET_SCENE, .shared = {EDGE},
                                  .blends = true, .tests_depth = true),
@@ -111,7 +112,7 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_CAUSTICS] = EFFECT("caustics", space_caustics, .target = TARGET_THICKNESS,
                                     .textures = WEIR_TEXTURES_HEIGHT, .shared = {LENS}, .adds = true),
     [WEIR_EFFECT_SURFACE] =
-        EFFECT("surface", space_surface, .target = TARGET_SURFACE, .shared = {SPHERE, LIQUID},
+        EFFECT("surface", space_surface, .target = TARGET_SURFACE, .shared = {SPHERE, LIQUID, SHOWN},
                .particles = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_THICKNESS] =
         EFFECT("thickness", space_thickness, .target = TARGET_THICKNESS, .textures = WEIR_TEXTURES_DEPTH,

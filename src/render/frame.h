@@ -37,7 +37,7 @@ typedef struct WeirFrame {
     float field_radius, disc_share;
     uint32_t fold, field_texel;
     uint32_t photon_columns, photon_rows;
-    uint32_t unused;
+    uint32_t all_shown;
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");

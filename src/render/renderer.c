@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
 {
@@ -16,16 +17,17 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     };
     renderer->frame_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 2, .entries = frame_entries});
-    // Not read by the fragment stage: many phones give it few storage buffers.
-    WGPUBindGroupLayoutEntry particle_entries[4];
-    for (uint32_t k = 0; k < 4; k++) {
-        particle_entries[k] =
-            (WGPUBindGroupLayoutEntry){.binding = k,
-                                       .visibility = WGPUShaderStage_Vertex | WGPUShaderStage_Compute,
-                                       .buffer = {.type = WGPUBufferBindingType_ReadOnlyStorage}};
+    // Not read by the fragment stage: many phones give it few storage buffers. Compute passes make the last two.
+    WGPUBindGroupLayoutEntry particle_entries[WEIR_PARTICLE_BINDINGS];
+    for (uint32_t k = 0; k < WEIR_PARTICLE_BINDINGS; k++) {
+        particle_entries[k] = (WGPUBindGroupLayoutEntry){
+            .binding = k,
+            .visibility = k < 3 ? WGPUShaderStage_Vertex | WGPUShaderStage_Compute : WGPUShaderStage_Vertex,
+            .buffer = {.type = WGPUBufferBindingType_ReadOnlyStorage}};
     }
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
-        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 4, .entries = particle_entries});
+        device,
+        &(WGPUBindGroupLayoutDescriptor){.entryCount = WEIR_PARTICLE_BINDINGS, .entries = particle_entries});
     weir_flat_create_layouts(renderer, device);
     weir_space_create_layouts(renderer, device);
     for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
@@ -112,7 +114,7 @@ static void release_group(WeirParticleGroup *slot)
 {
     if (!slot->group) return;
     wgpuBindGroupRelease(slot->group);
-    for (int k = 0; k < 4; k++) wgpuBufferRelease(slot->buffers[k]);
+    for (int k = 0; k < WEIR_PARTICLE_BINDINGS; k++) wgpuBufferRelease(slot->buffers[k]);
     *slot = (WeirParticleGroup){.group = NULL};
 }
 
@@ -157,21 +159,17 @@ const char *weir_renderer_error(const WeirRenderer *renderer)
 // Bind group of these particles: a known one, or a new one in the slot that was not drawn for longest. Slots
 // not drawn for a while are given up, so that a destroyed simulation's buffers do not stay in memory.
 static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticles *particles,
-                                    WGPUBuffer crowd)
+                                    const WeirCrowd *crowd)
 {
     bool wcsph = particles->method == WEIR_METHOD_WCSPH;
-    // wcsph has two: the third binding, which its shaders do not have, gets the second one again, and so does the
-    // last one where nothing reads it.
-    WGPUBuffer buffers[4] = {wcsph ? particles->coordinate : particles->position,
-                             wcsph ? particles->motion : particles->velocity,
-                             wcsph ? particles->motion : particles->flow,
-                             crowd   ? crowd
-                             : wcsph ? particles->motion
-                                     : particles->velocity};
+    // Bindings that no shader reads get the second one again.
+    WGPUBuffer second = wcsph ? particles->motion : particles->velocity;
+    WGPUBuffer buffers[WEIR_PARTICLE_BINDINGS] = {
+        wcsph ? particles->coordinate : particles->position, second, wcsph ? second : particles->flow,
+        crowd ? crowd->values : second, crowd ? crowd->shown : second};
     WeirParticleGroup *oldest = &renderer->groups[0], *found = NULL;
     for (WeirParticleGroup *slot = renderer->groups; slot < renderer->groups + WEIR_PARTICLE_GROUPS; slot++) {
-        if (slot->group && slot->buffers[0] == buffers[0] && slot->buffers[1] == buffers[1] &&
-            slot->buffers[2] == buffers[2] && slot->buffers[3] == buffers[3]) {
+        if (slot->group && memcmp(slot->buffers, buffers, sizeof buffers) == 0) {
             found = slot;
         } else if (slot->last_frame + WEIR_PARTICLE_GROUP_FRAMES < renderer->frame_count) {
             release_group(slot);
@@ -181,16 +179,17 @@ static WGPUBindGroup particle_group(WeirRenderer *renderer, const WeirGpuParticl
     if (!found) {
         found = oldest;
         release_group(found);
-        WGPUBindGroupEntry entries[4];
-        for (uint32_t k = 0; k < 4; k++) {
+        WGPUBindGroupEntry entries[WEIR_PARTICLE_BINDINGS];
+        for (uint32_t k = 0; k < WEIR_PARTICLE_BINDINGS; k++) {
             wgpuBufferAddRef(buffers[k]);
             found->buffers[k] = buffers[k];
             entries[k] = (WGPUBindGroupEntry){.binding = k, .buffer = buffers[k], .size = WGPU_WHOLE_SIZE};
         }
-        found->group = wgpuDeviceCreateBindGroup(
-            weir_gpu_wgpu_device(renderer->gpu),
-            &(WGPUBindGroupDescriptor){
-                .layout = renderer->particle_layout, .entryCount = 4, .entries = entries});
+        found->group =
+            wgpuDeviceCreateBindGroup(weir_gpu_wgpu_device(renderer->gpu),
+                                      &(WGPUBindGroupDescriptor){.layout = renderer->particle_layout,
+                                                                 .entryCount = WEIR_PARTICLE_BINDINGS,
+                                                                 .entries = entries});
     }
     found->last_frame = renderer->frame_count;
     return found->group;
@@ -200,18 +199,21 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
                           WGPUBindGroup textures, uint32_t number, const WeirDrawing *drawing)
 {
     uint32_t vertices = 4, instances = 1;
+    WGPUBuffer counted = NULL;
     WGPUBindGroup particles = drawing->particles;
     switch (kind) {
     case WEIR_EFFECT_FIELD:
     case WEIR_EFFECT_SOLID_FIELD:
     case WEIR_EFFECT_WATER:
     case WEIR_EFFECT_PARTICLES:
-    case WEIR_EFFECT_SHADOW:
-    case WEIR_EFFECT_SPHERES:
     case WEIR_EFFECT_HEIGHT:
-    case WEIR_EFFECT_SURFACE:
     case WEIR_EFFECT_THICKNESS:
         instances = drawing->particle_count;
+        break;
+    case WEIR_EFFECT_SHADOW:
+    case WEIR_EFFECT_SPHERES:
+    case WEIR_EFFECT_SURFACE:
+        counted = renderer->crowd.draw;
         break;
     case WEIR_EFFECT_CAUSTICS:
         instances = drawing->frame->photon_columns * drawing->frame->photon_rows;
@@ -244,7 +246,10 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
     wgpuRenderPassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
     wgpuRenderPassEncoderSetBindGroup(pass, 1, particles, 0, NULL);
     if (textures) wgpuRenderPassEncoderSetBindGroup(pass, 2, textures, 0, NULL);
-    wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
+    if (counted)
+        wgpuRenderPassEncoderDrawIndirect(pass, counted, 0);
+    else
+        wgpuRenderPassEncoderDraw(pass, vertices, instances, 0, number);
 }
 
 static void submit(WeirRenderer *renderer, WeirDrawing *drawing, uint32_t dimension)
@@ -268,7 +273,7 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
 {
     uint32_t dimension = weir_sim_dimension(sim);
     WeirStatus status = prepare(renderer);
-    bool water = view->fluid_style == WEIR_FLUID_WATER, deep = water && dimension == 3;
+    bool water = view->fluid_style == WEIR_FLUID_WATER, deep = dimension == 3;
     if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
     if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
     if (status == WEIR_OK) status = weir_solids_prepare(renderer, weir_sim_scene(sim), particles);
@@ -276,11 +281,12 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
     WeirFrame frame;
     weir_frame_fill(&frame, sim, view, width, height, renderer->format);
     frame.shapes = renderer->solids.shape_count > 0;
+    // Between small spheres one sees to the middle.
+    frame.all_shown = renderer->all_shown || (!water && view->particle_radius < 0.5f * frame.spacing);
     if (deep) status = weir_crowd_prepare(renderer, &frame, particles->count);
     if (water && !deep) status = weir_flat_prepare(renderer, &frame);
     if (status != WEIR_OK) return status;
-    WGPUBuffer crowd = deep ? renderer->crowd.values : NULL;
-    WeirDrawing drawing = {.particles = particle_group(renderer, particles, crowd),
+    WeirDrawing drawing = {.particles = particle_group(renderer, particles, deep ? &renderer->crowd : NULL),
                            .uncounted = deep ? particle_group(renderer, particles, NULL) : NULL,
                            .particle_count = particles->count,
                            .method = particles->method,

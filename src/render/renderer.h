@@ -5,9 +5,11 @@
 #include "render/frame.h"
 
 // Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
+enum { WEIR_PARTICLE_BINDINGS = 5 }; // shaders/render: group 1
 typedef struct WeirParticleGroup {
-    WGPUBuffer buffers[4]; // as bound; references held, so that no new buffer gets their address
-    WGPUBindGroup group;   // NULL: free
+    WGPUBuffer buffers
+        [WEIR_PARTICLE_BINDINGS]; // as bound; references held, so that no new buffer gets their address
+    WGPUBindGroup group;          // NULL: free
     uint64_t last_frame;
 } WeirParticleGroup;
 enum { WEIR_PARTICLE_GROUPS = 8, WEIR_PARTICLE_GROUP_FRAMES = 120 };
@@ -40,14 +42,15 @@ typedef struct WeirSpace {
     WGPUBindGroup groups[WEIR_TEXTURE_GROUPS];
 } WeirSpace;
 
-// crowd.c: how crowded it is around each particle.
+// crowd.c: how crowded it is around each particle, and which ones can be seen.
 enum { WEIR_CROWD_STAGES = 2 };
 typedef struct WeirCrowd {
     WGPUBindGroupLayout layout;
     WGPUPipelineLayout pipeline_layout;
     WGPUComputePipeline pipelines[WEIR_CROWD_STAGES];
     uint32_t count, cell_count; // of particles and cells in the buffers
-    WGPUBuffer cells, values;
+    WGPUBuffer cells, values, shown;
+    WGPUBuffer draw; // what draws those shown: arguments of an indirect draw
     WGPUBindGroup group;
 } WeirCrowd;
 
@@ -86,6 +89,7 @@ struct WeirRenderer {
     WeirSolids solids;
     uint64_t frame_count;
     uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
+    bool all_shown;   // also those whom others hide on all sides; for tests
     WeirMessage message;
 };
 
@@ -93,7 +97,7 @@ struct WeirRenderer {
 typedef struct WeirDrawing {
     WGPUCommandEncoder encoder;
     WGPUBindGroup particles;
-    WGPUBindGroup uncounted; // the particles without what crowd.c makes; of water only
+    WGPUBindGroup uncounted; // the particles without what crowd.c makes; in 3D
     uint32_t particle_count;
     WeirMethod method;
     const WeirFrame *frame;

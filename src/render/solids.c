@@ -43,15 +43,16 @@ static bool create(WeirRenderer *renderer, const void *shapes, size_t size, uint
     WeirSolids *solids = &renderer->solids;
     solids->shapes = create_buffer(renderer, WGPUBufferUsage_Storage, shapes, size);
     if (!solids->shapes) return false;
-    // The layout of the particles' group, which has four bindings; the shaders have two.
-    WGPUBindGroupEntry entries[4];
-    for (uint32_t k = 0; k < 4; k++) {
+    // The layout of the particles' group, of which the shaders have two bindings.
+    WGPUBindGroupEntry entries[WEIR_PARTICLE_BINDINGS];
+    for (uint32_t k = 0; k < WEIR_PARTICLE_BINDINGS; k++) {
         entries[k] = (WGPUBindGroupEntry){
             .binding = k, .buffer = k == 0 ? solids->shapes : solids->states, .size = WGPU_WHOLE_SIZE};
     }
-    solids->group = wgpuDeviceCreateBindGroup(
-        weir_gpu_wgpu_device(renderer->gpu),
-        &(WGPUBindGroupDescriptor){.layout = renderer->particle_layout, .entryCount = 4, .entries = entries});
+    solids->group = wgpuDeviceCreateBindGroup(weir_gpu_wgpu_device(renderer->gpu),
+                                              &(WGPUBindGroupDescriptor){.layout = renderer->particle_layout,
+                                                                         .entryCount = WEIR_PARTICLE_BINDINGS,
+                                                                         .entries = entries});
     solids->shape_count = count;
     return solids->group != NULL;
 }

@@ -246,8 +246,7 @@ static void draw_water(WeirRenderer *renderer, const WeirDrawing *drawing)
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     const WGPUTextureView *views = renderer->space.views;
-    if (drawing->water)
-        weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
+    weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
     WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
     draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SOLID_SHADOW);
     if (drawing->water) {

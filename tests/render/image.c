@@ -52,6 +52,30 @@ static void copy_rows(WeirImage *image, const uint8_t *rows)
     }
 }
 
+// NULL if the device fails.
+static const void *map(WeirGpu *gpu, WGPUBuffer buffer, size_t bytes)
+{
+    MapResult result = {.done = false};
+    wgpuBufferMapAsync(buffer, WGPUMapMode_Read, 0, bytes,
+                       (WGPUBufferMapCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
+                                                   .callback = mapped,
+                                                   .userdata1 = &result});
+    while (!result.done) {
+        // The device's poll moves work on, the instance's events bring the answer.
+        if (weir_gpu_poll(gpu) != WEIR_OK) return NULL;
+        wgpuInstanceProcessEvents(weir_gpu_wgpu_instance(gpu));
+    }
+    return result.good ? wgpuBufferGetConstMappedRange(buffer, 0, bytes) : NULL;
+}
+
+static void submit(WeirGpu *gpu, WGPUCommandEncoder encoder)
+{
+    WGPUCommandBuffer commands = wgpuCommandEncoderFinish(encoder, NULL);
+    wgpuQueueSubmit(weir_gpu_wgpu_queue(gpu), 1, &commands);
+    wgpuCommandBufferRelease(commands);
+    wgpuCommandEncoderRelease(encoder);
+}
+
 bool weir_image_read(WeirImage *image)
 {
     WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(weir_gpu_wgpu_device(image->gpu), NULL);
@@ -60,27 +84,29 @@ bool weir_image_read(WeirImage *image)
         .buffer = image->buffer, .layout = {.bytesPerRow = image->row_bytes, .rowsPerImage = image->height}};
     WGPUExtent3D size = {image->width, image->height, 1};
     wgpuCommandEncoderCopyTextureToBuffer(encoder, &source, &target, &size);
-    WGPUCommandBuffer commands = wgpuCommandEncoderFinish(encoder, NULL);
-    wgpuQueueSubmit(weir_gpu_wgpu_queue(image->gpu), 1, &commands);
-    wgpuCommandBufferRelease(commands);
-    wgpuCommandEncoderRelease(encoder);
-
-    MapResult result = {.done = false};
+    submit(image->gpu, encoder);
     size_t bytes = (size_t)image->row_bytes * image->height;
-    wgpuBufferMapAsync(image->buffer, WGPUMapMode_Read, 0, bytes,
-                       (WGPUBufferMapCallbackInfo){.mode = WGPUCallbackMode_AllowProcessEvents,
-                                                   .callback = mapped,
-                                                   .userdata1 = &result});
-    while (!result.done) {
-        // The device's poll moves work on, the instance's events bring the answer.
-        if (weir_gpu_poll(image->gpu) != WEIR_OK) return false;
-        wgpuInstanceProcessEvents(weir_gpu_wgpu_instance(image->gpu));
-    }
-    if (!result.good) return false;
-    const uint8_t *rows = wgpuBufferGetConstMappedRange(image->buffer, 0, bytes);
+    const uint8_t *rows = map(image->gpu, image->buffer, bytes);
     if (rows) copy_rows(image, rows);
     wgpuBufferUnmap(image->buffer);
     return rows != NULL;
+}
+
+bool weir_buffer_read(WeirGpu *gpu, WGPUBuffer source, void *data, size_t bytes)
+{
+    WGPUDevice device = weir_gpu_wgpu_device(gpu);
+    WGPUBuffer buffer = wgpuDeviceCreateBuffer(
+        device,
+        &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_CopyDst | WGPUBufferUsage_MapRead, .size = bytes});
+    if (!buffer) return false;
+    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(device, NULL);
+    wgpuCommandEncoderCopyBufferToBuffer(encoder, source, 0, buffer, 0, bytes);
+    submit(gpu, encoder);
+    const void *found = map(gpu, buffer, bytes);
+    if (found) memcpy(data, found, bytes);
+    wgpuBufferUnmap(buffer);
+    wgpuBufferRelease(buffer);
+    return found != NULL;
 }
 
 void weir_image_destroy(WeirImage *image)

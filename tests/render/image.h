@@ -18,3 +18,5 @@ bool weir_image_create(WeirImage *image, WeirGpu *gpu, WGPUTextureFormat format,
                        uint32_t height);
 bool weir_image_read(WeirImage *image);
 void weir_image_destroy(WeirImage *image);
+// The first bytes of a buffer that can be copied from. False if the device fails.
+bool weir_buffer_read(WeirGpu *gpu, WGPUBuffer source, void *data, size_t bytes);

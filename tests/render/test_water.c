@@ -132,6 +132,53 @@ static double unevenness(const WeirImage *image, const WeirView *view)
     return sum / count;
 }
 
+// How many particles were drawn of those of `view`, all of them or those that are not buried.
+static uint32_t draw_shown(WeirGpu *gpu, WeirSim *sim, const WeirView *view, bool all_shown, WeirImage *image)
+{
+    WeirGpuParticles particles;
+    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
+    renderer->all_shown = all_shown;
+    assert_true(weir_upload(gpu, sim, &particles));
+    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
+    assert_int_equal(weir_renderer_draw_particles(renderer, sim, &particles, view, image->view, SIZE, SIZE),
+                     WEIR_OK);
+    assert_true(weir_image_read(image));
+    uint32_t drawn[4];
+    assert_true(weir_buffer_read(gpu, renderer->crowd.draw, drawn, sizeof drawn));
+    weir_upload_release(&particles);
+    weir_renderer_destroy(renderer);
+    return drawn[1];
+}
+
+// Many of the pool's particles are hidden by others on all sides: pictures without them are the same ones.
+static void who_is_buried_is_left_out_unseen(void **state)
+{
+    WeirSim *sim = pool(true);
+    assert_int_equal(weir_sim_step(sim, 60), WEIR_OK); // no lattice any more
+    const struct {
+        WeirFluidStyle style;
+        float radius;       // of the spheres, spacings
+        double least, most; // shares that are drawn
+    } cases[] = {{WEIR_FLUID_WATER, 0.58f, 0.3, 0.7},
+                 {WEIR_FLUID_PARTICLES, 0.58f, 0.3, 0.95},
+                 {WEIR_FLUID_PARTICLES, 0.3f, 1.0, 1.0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        WeirView view = view_of(cases[k].style);
+        view.particle_radius = cases[k].radius * 0.04f;
+        WeirImage some, every;
+        double drawn = draw_shown(*state, sim, &view, false, &some);
+        drawn /= draw_shown(*state, sim, &view, true, &every);
+        if (drawn < cases[k].least || drawn > cases[k].most) fail_msg("case %zu: %.3f are drawn", k, drawn);
+        for (size_t p = 0; p < (size_t)SIZE * SIZE; p++) {
+            int off = difference(some.pixels + 4 * p, every.pixels + 4 * p);
+            if (off > 12) fail_msg("case %zu, pixel %zu: off by %d", k, p, off);
+        }
+        weir_image_destroy(&some);
+        weir_image_destroy(&every);
+    }
+    weir_sim_destroy(sim);
+}
+
 static void water_is_blue_and_even(void **state)
 {
     WeirSim *sim = pool(false);
@@ -524,6 +571,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_is_blue_and_even),
+        cmocka_unit_test(who_is_buried_is_left_out_unseen),
         cmocka_unit_test(water_seen_flat_has_no_specks),
         cmocka_unit_test(a_body_is_seen_in_and_above_the_water),
         cmocka_unit_test(what_stands_before_the_water_hides_it),

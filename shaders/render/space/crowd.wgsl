@@ -3,6 +3,8 @@
 
 @group(2) @binding(0) var<storage, read_write> cells: array<atomic<i32>>; // 4 each: particles, their motion
 @group(2) @binding(1) var<storage, read_write> crowd: array<vec2f>; // per particle: how many others, how much else they move
+@group(2) @binding(2) var<storage, read_write> shown: array<u32>;  // numbers of those that can be seen
+@group(2) @binding(3) var<storage, read_write> draw: array<atomic<u32>, 4>; // [1]: how many
 
 const row_length = 65535u * 256u; // invocations of one row of workgroups; crowd.c
 const cell_unit = 256.0;          // of a particle, in a cell

@@ -1,33 +1,76 @@
 // crowd_gather: how crowded it is around each fluid particle: 0 for a lonely drop, about a half at a surface, 1 in the
-// middle of the fluid; and how much its motion differs from theirs, in speeds of sound.
+// middle of the fluid; and how much its motion differs from theirs, in speeds of sound. Which particles can be seen.
 // in:  frame, particles, cells
-// out: crowd
+// out: crowd, shown, draw[1]
 
-@compute @workgroup_size(256)
-fn crowd_gather(@builtin(global_invocation_id) id: vec3u) {
-    let particle = id.x + id.y * row_length;
-    if particle >= arrayLength(&crowd) { return; }
-    if particle_kind(particle) != FLUID {
-        crowd[particle] = vec2f(1.0, 0.0);
-        return;
-    }
-    let place = cell_place(particle);
+var<workgroup> found: atomic<u32>; // wgpu-native does not zero it
+var<workgroup> first: u32;
+
+// Shares of the full number of particles around one from which on it is buried, and how far it is from the domain's sides
+// then, in cells: through these one sees. Between spheres one sees deeper than into water.
+const buried_in_water = vec2f(0.95, 0.8);
+const buried_by_spheres = vec2f(0.985, 1.3);
+
+struct Around {
+    others: f32,   // particles, shares of the full number
+    with_it: f32,  // the same with the particle itself
+    motion: f32,   // of the others, relative to it
+}
+
+fn around(particle: u32, place: vec3f) -> Around {
     let velocity = particle_velocity(particle) / frame.sound_speed;
-    var sum = 0.0;
-    var motion = vec3f(0.0); // of the others, relative to it
+    var sum = vec2f(0.0);
+    var motion = vec3f(0.0);
     for (var corner = 0u; corner < 8u; corner++) {
         let share = corner_share(place, corner);
         let cell = cell_index(place, corner);
         let count = f32(atomicLoad(&cells[cell])) / cell_unit;
         let moves = vec3f(f32(atomicLoad(&cells[cell + 1u])), f32(atomicLoad(&cells[cell + 2u])),
                           f32(atomicLoad(&cells[cell + 3u]))) / motion_unit;
-        sum += share * (count - share); // without itself
+        sum += share * vec2f(count - share, count);
         motion += share * (moves - count * velocity);
     }
-    // Behind the domain's sides there is no fluid to count.
+    return Around(sum.x / particles_per_cell, sum.y / particles_per_cell, length(motion) / max(sum.x, 0.5));
+}
+
+// Distances from the domain's sides, in cells.
+fn from_sides(place: vec3f) -> vec3f {
     let low = place - 1.0;
-    let high = (frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing) - low;
-    let room = 0.55 + 0.45 * clamp(min(low, high), vec3f(0.0), vec3f(1.0));
-    let torn = sum / (particles_per_cell * room.x * room.y * room.z);
-    crowd[particle] = vec2f(torn, length(motion) / max(sum, 0.5));
+    return min(low, (frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing) - low);
+}
+
+// Of a particle of fluid, its crowd. Whether others hide it on all sides.
+fn measure(particle: u32) -> bool {
+    let place = cell_place(particle);
+    let near = around(particle, place);
+    let away = from_sides(place);
+    // Behind the domain's sides there is no fluid to count.
+    let room = 0.55 + 0.45 * clamp(away, vec3f(0.0), vec3f(1.0));
+    crowd[particle] = vec2f(near.others / (room.x * room.y * room.z), near.motion);
+    let buried = select(buried_by_spheres, buried_in_water, frame.water != 0u);
+    return near.with_it > buried.x && min(min(away.x, away.y), away.z) > buried.y;
+}
+
+fn can_be_seen(particle: u32) -> bool {
+    if particle >= arrayLength(&crowd) { return false; }
+    let kind = particle_kind(particle);
+    if kind != FLUID {
+        crowd[particle] = vec2f(1.0, 0.0);
+        return kind != HIDDEN;
+    }
+    return !measure(particle) || frame.all_shown != 0u;
+}
+
+@compute @workgroup_size(256)
+fn crowd_gather(@builtin(global_invocation_id) id: vec3u, @builtin(local_invocation_index) local: u32) {
+    if local == 0u { atomicStore(&found, 0u); }
+    workgroupBarrier();
+    let particle = id.x + id.y * row_length;
+    let is_shown = can_be_seen(particle);
+    var number = 0u;
+    if is_shown { number = atomicAdd(&found, 1u); }
+    workgroupBarrier();
+    if local == 0u { first = atomicAdd(&draw[1], atomicLoad(&found)); }
+    workgroupBarrier();
+    if is_shown { shown[first + number] = particle; }
 }

@@ -1,10 +1,11 @@
 // shadow: depth of the particles as the light sees them; water casts a shade of its own (shade.wgsl).
-// in:  frame, particles
+// in:  frame, particles, shown
 // out: depth, 0 nearest to the light
 
 @vertex
-fn shadow_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32)
+fn shadow_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32)
     -> @builtin(position) vec4f {
+    let particle = shown[number];
     let kind = particle_kind(particle);
     if kind == HIDDEN || (kind == FLUID && frame.water != 0u) { return vec4f(2.0, 2.0, 2.0, 1.0); }
     let light = to_light(particle_position(particle));

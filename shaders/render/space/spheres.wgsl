@@ -1,5 +1,5 @@
 // spheres: every particle of fluid, walls and bodies, or of water the drops that fly free, a shaded sphere, cut exactly by its ray in perspective.
-// in:  frame, color_maps, particles, shadow map
+// in:  frame, color_maps, particles, shown, shadow map
 // out: sRGB, alpha the share of the pixel that is covered; depth
 
 struct Sphere {
@@ -26,7 +26,8 @@ fn arriving_light(point: vec3f, radius: f32) -> f32 {
 }
 
 @vertex
-fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Sphere {
+fn spheres_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Sphere {
+    let particle = shown[number];
     var sphere: Sphere;
     sphere.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
     let kind = particle_kind(particle);

@@ -1,5 +1,5 @@
 // surface: where the eye meets the fluid first, as a union of spheres. The domain's sides cut it off like glass.
-// in:  frame, particles
+// in:  frame, particles, shown
 // out: depth, negative where it is a side of the domain; shares of the pixel: water, such a side
 
 struct Ball {
@@ -10,7 +10,8 @@ struct Ball {
 }
 
 @vertex
-fn surface_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) particle: u32) -> Ball {
+fn surface_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Ball {
+    let particle = shown[number];
     var ball: Ball;
     ball.place = vec4f(2.0, 2.0, 2.0, 1.0); // outside of the picture
     if particle_kind(particle) != FLUID { return ball; }
