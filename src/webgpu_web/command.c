@@ -164,6 +164,11 @@ void wgpuRenderPassEncoderDraw(WGPURenderPassEncoder pass, uint32_t vertices, ui
     weir_js_draw(WEIR_ID(pass), vertices, instances, first_vertex, first_instance);
 }
 
+void wgpuRenderPassEncoderDrawIndirect(WGPURenderPassEncoder pass, WGPUBuffer drawn, uint64_t offset)
+{
+    weir_js_draw_indirect(WEIR_ID(pass), WEIR_ID(drawn), (double)offset);
+}
+
 void wgpuRenderPassEncoderEnd(WGPURenderPassEncoder pass)
 {
     weir_js_pass_end(WEIR_ID(pass));

@@ -128,6 +128,7 @@ WEIR_JS(void, dispatch, uint32_t pass, uint32_t x, uint32_t y, uint32_t z)
 WEIR_JS(void, dispatch_indirect, uint32_t pass, uint32_t sizes, double offset)
 WEIR_JS(void, draw, uint32_t pass, uint32_t vertices, uint32_t instances, uint32_t first_vertex,
         uint32_t first_instance)
+WEIR_JS(void, draw_indirect, uint32_t pass, uint32_t drawn, double offset)
 
 // Queue
 WEIR_JS(void, submit, uint32_t queue, const WGPUCommandBuffer *commands, size_t count)

@@ -616,6 +616,8 @@ export class WebGpuImports {
         this.#get<GPURenderPassEncoder>(pass).draw(
           vertices >>> 0, instances >>> 0, firstVertex >>> 0, firstInstance >>> 0,
         ),
+      draw_indirect: (pass: number, drawn: number, offset: number) =>
+        this.#get<GPURenderPassEncoder>(pass).drawIndirect(this.#get(drawn), offset),
     };
   }
 

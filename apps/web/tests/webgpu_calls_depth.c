@@ -26,7 +26,7 @@ typedef struct Depth {
     WGPUTexture textures[2]; // depth, picture
     WGPUTextureView views[2];
     WGPUBindGroup group;
-    WGPUBuffer pixels;
+    WGPUBuffer pixels, drawn;
 } Depth;
 
 static WGPURenderPipeline make_pipeline(const Depth *depth, WGPUPipelineLayout layout, const char *fragment,
@@ -91,6 +91,9 @@ static void make_textures(Depth *depth)
         world.device,
         &(WGPUBindGroupDescriptor){.layout = depth->layout, .entryCount = 1, .entries = &entry});
     depth->pixels = weir_test_buffer(WGPUBufferUsage_CopyDst | WGPUBufferUsage_CopySrc, SIZE * ROW);
+    const uint32_t both[6] = {0, 0, 4, 2, 0, 0}; // strips, from 8 bytes on
+    depth->drawn = weir_test_buffer(WGPUBufferUsage_CopyDst | WGPUBufferUsage_Indirect, sizeof both);
+    wgpuQueueWriteBuffer(world.queue, depth->drawn, 0, both, sizeof both);
 }
 
 static void draw(Depth *depth)
@@ -112,7 +115,10 @@ static void draw(Depth *depth)
         wgpuRenderPassEncoderSetPipeline(pass, show ? depth->show : depth->draw);
         if (show) wgpuRenderPassEncoderSetBindGroup(pass, 0, depth->group, 0, NULL);
         // The far strip once more when showing: it covers every pixel.
-        wgpuRenderPassEncoderDraw(pass, 4, show ? 1 : 2, 0, show ? 1 : 0);
+        if (show)
+            wgpuRenderPassEncoderDraw(pass, 4, 1, 0, 1);
+        else
+            wgpuRenderPassEncoderDrawIndirect(pass, depth->drawn, 8);
         wgpuRenderPassEncoderEnd(pass);
         wgpuRenderPassEncoderRelease(pass);
     }
@@ -145,6 +151,7 @@ static int test_depth(uint32_t step)
     wgpuRenderPipelineRelease(depth.show);
     wgpuShaderModuleRelease(depth.shader);
     wgpuBufferRelease(depth.pixels);
+    wgpuBufferRelease(depth.drawn);
     for (int k = 0; k < 2; k++) {
         wgpuTextureViewRelease(depth.views[k]);
         wgpuTextureRelease(depth.textures[k]);
@@ -153,6 +160,6 @@ static int test_depth(uint32_t step)
 }
 
 const WeirTest weir_depth_tests[] = {
-    {"depth attachments and textures in bind groups", test_depth, false},
+    {"depth attachments and textures in bind groups, wgpuRenderPassEncoderDrawIndirect", test_depth, false},
     {0},
 };
