@@ -13,6 +13,7 @@ import { isSlowMotion, KnownCards, pageStore, RunRate, stepsFit } from './real_t
 import { fetchScene, parseScene, withParameters, type ParameterValue, type SceneDocument, type SceneEntry } from './scene_document.ts';
 import { SceneStore } from './scene_store.ts';
 import { startCpu, startEngine, startGpu, startMain, type Backend, type EngineSetup } from './start_engine.ts';
+import { Sharpness } from './sharpness.ts';
 import { StatusLine } from './status.ts';
 import { Camera, watchSize } from './view.ts';
 import { ColorBy, FluidStyle, type ParameterInfo, type Weir } from './weir.ts';
@@ -59,6 +60,8 @@ export class App implements PanelHost {
   readonly #embedded: boolean;
   #asked: boolean; // the user has asked for this number of particles
   readonly #rate = new RunRate();
+  readonly #sharpness = new Sharpness();
+  #display = { width: 1, height: 1, ratio: 1 }; // pixels of the stage, and per CSS pixel
   readonly #known = new KnownCards(pageStore());
   #panel: Panel | null = null;
   #panelShown = true;
@@ -98,10 +101,8 @@ export class App implements PanelHost {
 
   async start(): Promise<void> {
     watchSize(this.#stage, (width, height, ratio) => {
-      this.camera.width = width;
-      this.camera.height = height;
-      this.camera.pixelRatio = ratio;
-      this.#fit();
+      this.#display = { width, height, ratio };
+      this.#setSize();
     });
     new ResizeObserver(() => this.#fit()).observe(element('footer')); // its words take one line or more
     if (small.matches) this.#showPlots(false);
@@ -111,6 +112,15 @@ export class App implements PanelHost {
     if (!this.#embedded) this.#panel = new Panel(element('panel'), this, !small.matches);
     this.#fit();
     this.#listen();
+  }
+
+  #setSize(): void {
+    const { width, height, ratio } = this.#display;
+    const { share } = this.#sharpness;
+    this.camera.width = Math.max(Math.round(width * share), 1);
+    this.camera.height = Math.max(Math.round(height * share), 1);
+    this.camera.pixelRatio = ratio * share;
+    this.#fit();
   }
 
   // ---- Engines ----
@@ -249,6 +259,14 @@ export class App implements PanelHost {
 
   #isCard(): boolean {
     return this.engine instanceof GpuEngine && !this.engine.gpu.isSoftware;
+  }
+
+  // As many pixels as the graphics card has time for; whether the fluid keeps real time is seen after that.
+  #keepSharp(now: number, engine: Engine): void {
+    const drawMs = this.#isCard() && !document.hidden ? engine.stats.drawMs : 0;
+    if (!this.#sharpness.update(now, drawMs, this.#interval, this.#display.ratio)) return;
+    this.#setSize();
+    this.#rate.restart(now);
   }
 
   // What a graphics card shows in slow motion is drawn as plain particles, if drawing is what takes too long, or starts again
@@ -477,6 +495,8 @@ export class App implements PanelHost {
     }
     classList.toggle('may-be-water', this.drawsWater());
     classList.toggle('water', dimension === 3 && this.drawsWater() && this.fluidStyle === FluidStyle.water);
+    this.#sharpness.restart(performance.now(), this.#isCard());
+    this.#setSize();
   }
 
   setRadius(radius: number): void {
@@ -599,6 +619,7 @@ export class App implements PanelHost {
     this.probePlots.update(engine.stats.probes, now);
     if (!this.paused) this.#advise(now, engine.stats);
     this.status.update(now, engine, this.paused);
+    this.#keepSharp(now, engine);
     this.#keepRealTime(now, engine);
     if (this.firstFrameMs === 0 && engine.stats.frames > 0) this.firstFrameMs = performance.now();
   };

@@ -24,6 +24,7 @@ export type EngineStats = {
   frames: number; // drawn, each with a newer state than the last one
   frameSteps: number; // of the last frame
   stepMs: number; // milliseconds per step, averaged
+  drawMs: number; // of a frame besides its steps, where a graphics card tells what these take; 0: not known
   passes: PassTime[]; // empty where the device gives no times
   diagnostics: Diagnostics | null;
   clock: Clock | null; // wcsph only
@@ -63,7 +64,7 @@ export interface Engine {
 
 export function newStats(): EngineStats {
   return {
-    particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, passes: [], diagnostics: null, clock: null,
+    particles: 0, steps: 0, time: 0, frames: 0, frameSteps: 0, stepMs: 0, drawMs: 0, passes: [], diagnostics: null, clock: null,
     probes: [], memory: 0, warning: '',
   };
 }

@@ -224,6 +224,7 @@ export class GpuEngine implements Engine {
     this.#inFlight--;
     this.stats.frames++;
     this.stats.stepMs = this.#pace.stepMs;
+    this.stats.drawMs = this.#deviceMs() > 0 ? this.#pace.besidesMs : 0;
     if (!this.#sim || this.#destroyed) return;
     this.stats.steps = this.#sim.stepCount + this.#stepOffset;
     this.stats.time = this.#sim.time + this.#timeOffset;

@@ -16,6 +16,7 @@ const probeEvery = 8; // frames; a few more steps then, or all frames would be a
 export class Pace {
   maxSteps = 2; // careful at the start: a step may be slow here
   stepMs = 0; // milliseconds per step; 0: not known yet
+  besidesMs = 0; // of a frame besides its steps
   readonly #longestMs: number;
   #limit = 2;
   #intervals = 1; // of the display that a frame lasts
@@ -71,8 +72,8 @@ export class Pace {
   }
 
   #limitSteps(intervalMs: number): void {
-    const fixed = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
-    const affordable = Math.floor(this.#roomBeside(fixed, intervalMs) / this.stepMs);
+    this.besidesMs = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
+    const affordable = Math.floor(this.#roomBeside(this.besidesMs, intervalMs) / this.stepMs);
     // Grows gently, because a few steps say little about many; shrinks at once.
     this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
     const probe = !this.#told && this.#frames % probeEvery === 0 ? Math.max(1, this.#limit >> 2) : 0;
@@ -97,7 +98,7 @@ export class Pace {
     this.maxSteps = this.#limit = 2;
     this.#intervals = 1;
     this.#told = false;
-    this.stepMs = 0;
+    this.stepMs = this.besidesMs = 0;
     this.#forget();
   }
 }
