@@ -6,8 +6,8 @@
 var<workgroup> found: atomic<u32>; // wgpu-native does not zero it
 var<workgroup> first: u32;
 
-// Shares of the full number of particles around one from which on it is buried, and how far it is from the domain's sides
-// then, in cells: through these one sees. Between spheres one sees deeper than into water.
+// Shares of the full number of particles around one from which on it is buried, and how far it is then from sides of the
+// domain that one sees through, in cells. Between spheres one sees deeper than into water.
 const buried_in_water = vec2f(0.95, 0.8);
 const buried_by_spheres = vec2f(0.985, 1.3);
 
@@ -33,22 +33,38 @@ fn around(particle: u32, place: vec3f) -> Around {
     return Around(sum.x / particles_per_cell, sum.y / particles_per_cell, length(motion) / max(sum.x, 0.5));
 }
 
-// Distances from the domain's sides, in cells.
-fn from_sides(place: vec3f) -> vec3f {
+// Distances from the domain's low sides and high sides, in cells.
+struct Sides {
+    low: vec3f,
+    high: vec3f,
+}
+
+fn from_sides(place: vec3f) -> Sides {
     let low = place - 1.0;
-    return min(low, (frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing) - low);
+    return Sides(low, (frame.domain_max.xyz - frame.domain_min.xyz) / (2.0 * frame.spacing) - low);
+}
+
+// Distance from the nearest side that the eye looks in through, or, where the fluid casts a shadow, the sun.
+fn from_windows(sides: Sides) -> f32 {
+    let from_light = frame.light_rows[2].xyz * select(1.0, 0.0, frame.water != 0u);
+    let by_low = (frame.eye.xyz < frame.domain_min.xyz) | (from_light > vec3f(0.0));
+    let by_high = (frame.eye.xyz > frame.domain_max.xyz) | (from_light < vec3f(0.0));
+    let away = min(select(vec3f(1e9), sides.low, by_low), select(vec3f(1e9), sides.high, by_high));
+    return min(min(away.x, away.y), away.z);
 }
 
 // Of a particle of fluid, its crowd. Whether others hide it on all sides.
 fn measure(particle: u32) -> bool {
     let place = cell_place(particle);
     let near = around(particle, place);
-    let away = from_sides(place);
+    let sides = from_sides(place);
     // Behind the domain's sides there is no fluid to count.
-    let room = 0.55 + 0.45 * clamp(away, vec3f(0.0), vec3f(1.0));
+    let inside = clamp(min(sides.low, sides.high), vec3f(0.0), vec3f(1.0));
+    let room = 0.55 + 0.45 * inside;
+    let full = 0.5 + 0.5 * inside; // with the particle itself
     crowd[particle] = vec2f(near.others / (room.x * room.y * room.z), near.motion);
     let buried = select(buried_by_spheres, buried_in_water, frame.water != 0u);
-    return near.with_it > buried.x && min(min(away.x, away.y), away.z) > buried.y;
+    return near.with_it > buried.x * full.x * full.y * full.z && from_windows(sides) > buried.y;
 }
 
 fn can_be_seen(particle: u32) -> bool {
