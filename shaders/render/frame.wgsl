@@ -51,6 +51,8 @@ struct Frame {
     disc_share: f32,             // 2D: how much of the particles is seen in the water, 0 to 1
     fold: u32,                   // 2D: bit 2 axis + side: a wall; bit 4 + axis: periodic
     field_texel: u32,            // 2D: of the field that the water is made of, pixels
+    height_columns: u32,         // 3D: texels of the map of the water's height
+    height_rows: u32,
     photon_columns: u32,         // 3D: caustics.wgsl
     photon_rows: u32,
     all_shown: u32,              // 3D: 1 where nobody is left out (crowd_gather.wgsl)

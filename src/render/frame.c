@@ -7,6 +7,7 @@
 
 // Towards the light, a unit vector; space.wgsl: sun.
 static const float light_direction[3] = {-0.3496f, 0.8591f, 0.3737f};
+enum { LEAST_HEIGHT_SIZE = 32 }; // texels of the map of heights along the shorter side
 
 typedef struct Check {
     const char *name;
@@ -185,15 +186,24 @@ static void fill_light(WeirFrame *frame)
     }
 }
 
+// Texels as wide as long.
+static void fill_height_map(WeirFrame *frame, const float size[3])
+{
+    float texel = fmaxf(size[0], size[2]) / WEIR_HEIGHT_SIZE;
+    frame->height_columns = (uint32_t)fmaxf(roundf(size[0] / texel), LEAST_HEIGHT_SIZE);
+    frame->height_rows = (uint32_t)fmaxf(roundf(size[2] / texel), LEAST_HEIGHT_SIZE);
+}
+
 // Photons start on the texels of the map of the water's height, and beyond its sides towards the light as far as that
 // comes while it sinks, bent into the water, from two thirds of the domain's height.
 static void fill_photons(WeirFrame *frame, const float size[3])
 {
     const float reach = 0.3f * size[1];
+    const uint32_t texels[2] = {frame->height_columns, frame->height_rows};
     uint32_t count[2];
     for (int k = 0; k < 2; k++) {
         float share = fminf(reach / size[2 * k], 0.5f);
-        count[k] = WEIR_HEIGHT_SIZE + (uint32_t)ceilf(share * WEIR_HEIGHT_SIZE);
+        count[k] = texels[k] + (uint32_t)ceilf(share * (float)texels[k]);
     }
     frame->photon_columns = count[0];
     frame->photon_rows = count[1];
@@ -224,6 +234,7 @@ static void fill_space(WeirFrame *frame, const WeirView *view, const WeirParamet
     frame->absorption = 2.6f / size[1];
     frame->occlusion_radius = fmaxf(0.045f * cbrtf(size[0] * size[1] * size[2]), 3.0f * frame->sphere_radius);
     fill_light(frame);
+    fill_height_map(frame, size);
     fill_photons(frame, size);
 }
 

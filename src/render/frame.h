@@ -9,8 +9,9 @@
 
 enum {
     WEIR_SHADOW_SIZE = 1024, // texels of the shadow map's side; space.wgsl: shadow_size
-    WEIR_HEIGHT_SIZE = 256,  // of the map of the water's height; lens.wgsl: height_size
-    WEIR_CAUSTICS_SIZE = 512,
+    WEIR_HEIGHT_SIZE =
+        256, // of the map of the water's height, along the domain's longer side; that of its caustics is
+             // twice as large
 };
 
 // Copied byte by byte to `struct Frame` of shaders/render/frame.wgsl, which says what each field means.
@@ -36,14 +37,16 @@ typedef struct WeirFrame {
     uint32_t shapes;
     float field_radius, disc_share;
     uint32_t fold, field_texel;
+    uint32_t height_columns, height_rows;
     uint32_t photon_columns, photon_rows;
     uint32_t all_shown;
+    uint32_t unused[2];
 } WeirFrame;
 _Static_assert(offsetof(WeirFrame, light_rows) == 80, "frame.wgsl: light_rows");
 _Static_assert(offsetof(WeirFrame, hidden) == 192, "frame.wgsl: hidden");
 _Static_assert(offsetof(WeirFrame, tool_radius) == 224, "frame.wgsl: tool_radius");
 _Static_assert(offsetof(WeirFrame, border) == 272, "frame.wgsl: border");
-_Static_assert(sizeof(WeirFrame) == 368, "frame.wgsl: size, a multiple of 16");
+_Static_assert(sizeof(WeirFrame) == 384, "frame.wgsl: size, a multiple of 16");
 
 // Number of the solids before the scene's own walls: the domain's sides are one, if any is a wall.
 uint32_t weir_scene_first_wall(const WeirScene *scene);

@@ -275,7 +275,6 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
     WeirStatus status = prepare(renderer);
     bool water = view->fluid_style == WEIR_FLUID_WATER, deep = dimension == 3;
     if (status == WEIR_OK) status = prepare_pipelines(renderer, particles->method, dimension, water);
-    if (status == WEIR_OK && dimension == 3) status = weir_space_prepare(renderer, width, height, water);
     if (status == WEIR_OK) status = weir_solids_prepare(renderer, weir_sim_scene(sim), particles);
     if (status != WEIR_OK) return status;
     WeirFrame frame;
@@ -283,8 +282,9 @@ WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *s
     frame.shapes = renderer->solids.shape_count > 0;
     // Between small spheres one sees to the middle.
     frame.all_shown = renderer->all_shown || (!water && view->particle_radius < 0.5f * frame.spacing);
-    if (deep) status = weir_crowd_prepare(renderer, &frame, particles->count);
-    if (water && !deep) status = weir_flat_prepare(renderer, &frame);
+    if (deep) status = weir_space_prepare(renderer, &frame, width, height);
+    if (status == WEIR_OK && deep) status = weir_crowd_prepare(renderer, &frame, particles->count);
+    if (status == WEIR_OK && water && !deep) status = weir_flat_prepare(renderer, &frame);
     if (status != WEIR_OK) return status;
     WeirDrawing drawing = {.particles = particle_group(renderer, particles, deep ? &renderer->crowd : NULL),
                            .uncounted = deep ? particle_group(renderer, particles, NULL) : NULL,

@@ -36,6 +36,7 @@ typedef enum WeirSpaceTexture {
 
 typedef struct WeirSpace {
     uint32_t width, height; // of the picture that they are made for; 0: none yet
+    uint32_t map[2];        // columns and rows of the water's heights
     bool water;             // with those of water
     WGPUTexture textures[WEIR_SPACE_TEXTURES];
     WGPUTextureView views[WEIR_SPACE_TEXTURES];
@@ -136,6 +137,7 @@ void weir_solids_release(WeirRenderer *renderer);
 // space.c
 void weir_space_create_layouts(WeirRenderer *renderer, WGPUDevice device);
 // Makes the textures for a picture of that size, if they are not there.
-WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height, bool water);
+WeirStatus weir_space_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t width,
+                              uint32_t height);
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing);
 void weir_space_release(WeirRenderer *renderer);

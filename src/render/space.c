@@ -78,8 +78,10 @@ void weir_space_release(WeirRenderer *renderer)
     }
 }
 
-static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width, uint32_t height, bool water)
+static bool create_textures(WeirSpace *space, WGPUDevice device)
 {
+    const uint32_t width = space->width, height = space->height, *map = space->map;
+    const bool water = space->water;
     const uint32_t half[2] = {(width + 1) / 2, (height + 1) / 2};
     const WGPUTextureUsage drawn = WGPUTextureUsage_RenderAttachment;
     const WGPUTextureUsage read = WGPUTextureUsage_RenderAttachment | WGPUTextureUsage_TextureBinding;
@@ -93,10 +95,10 @@ static bool create_textures(WeirSpace *space, WGPUDevice device, uint32_t width,
         [WEIR_SPACE_DEPTH] = {WEIR_DEPTH_FORMAT, read, width, height, WEIR_SCENE_SAMPLES},
         [WEIR_SPACE_COLOR] = {WEIR_SCENE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_OCCLUSION] = {WEIR_OCCLUSION_FORMAT, read, half[0], half[1], 1},
-        [WEIR_SPACE_SUMS] = {WEIR_THICKNESS_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
-        [WEIR_SPACE_ROWS] = {WEIR_SURFACE_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
-        [WEIR_SPACE_HEIGHT] = {WEIR_SURFACE_FORMAT, read, WEIR_HEIGHT_SIZE, WEIR_HEIGHT_SIZE, 1},
-        [WEIR_SPACE_CAUSTICS] = {WEIR_THICKNESS_FORMAT, read, WEIR_CAUSTICS_SIZE, WEIR_CAUSTICS_SIZE, 1},
+        [WEIR_SPACE_SUMS] = {WEIR_THICKNESS_FORMAT, read, map[0], map[1], 1},
+        [WEIR_SPACE_ROWS] = {WEIR_SURFACE_FORMAT, read, map[0], map[1], 1},
+        [WEIR_SPACE_HEIGHT] = {WEIR_SURFACE_FORMAT, read, map[0], map[1], 1},
+        [WEIR_SPACE_CAUSTICS] = {WEIR_THICKNESS_FORMAT, read, 2 * map[0], 2 * map[1], 1},
         [WEIR_SPACE_SURFACE] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_SURFACE_2] = {WEIR_SURFACE_FORMAT, read, width, height, 1},
         [WEIR_SPACE_SURFACE_DEPTH] = {WEIR_DEPTH_FORMAT, drawn, width, height, 1},
@@ -141,20 +143,25 @@ static bool create_groups(WeirRenderer *renderer, WGPUDevice device)
     return true;
 }
 
-WeirStatus weir_space_prepare(WeirRenderer *renderer, uint32_t width, uint32_t height, bool water)
+WeirStatus weir_space_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t width, uint32_t height)
 {
     WeirSpace *space = &renderer->space;
-    if (space->width == width && space->height == height && space->water == water) return WEIR_OK;
+    const bool water = frame->water != 0;
+    if (space->width == width && space->height == height && space->water == water &&
+        space->map[0] == frame->height_columns && space->map[1] == frame->height_rows)
+        return WEIR_OK;
     release_sized(space);
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
+    space->width = width;
+    space->height = height;
     space->water = water;
-    if (!create_textures(space, device, width, height, water) || !create_groups(renderer, device)) {
+    space->map[0] = frame->height_columns;
+    space->map[1] = frame->height_rows;
+    if (!create_textures(space, device) || !create_groups(renderer, device)) {
         release_sized(space);
         return weir_fail(&renderer->message, WEIR_ERROR_MEMORY,
                          "No device memory for the textures of a picture of %u x %u pixels.", width, height);
     }
-    space->width = width;
-    space->height = height;
     return WEIR_OK;
 }
 

@@ -19,7 +19,7 @@ fn calm_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) numb
 }
 
 fn height_before(texel: vec2i, number: u32) -> f32 {
-    let found = textureLoad(before, clamp(texel, vec2i(0), vec2i(i32(height_size)) - 1), 0);
+    let found = textureLoad(before, clamp(texel, vec2i(0), vec2i(textureDimensions(before)) - 1), 0);
     return select(found.x, decoded_height(found), number == 0u);
 }
 
@@ -30,7 +30,8 @@ fn calm_fragment(draw: Pass) -> @location(0) vec4f {
     if middle <= 0.0 { return vec4f(0.0); }
     let axis = select(vec2i(1, 0), vec2i(0, 1), draw.number == 1u);
     let side = frame.domain_max.xz - frame.domain_min.xz;
-    let width = max(calm_width * frame.spacing * height_size / select(side.x, side.y, draw.number == 1u), 1.0);
+    let size = textureDimensions(before);
+    let width = max(calm_width * frame.spacing * f32(select(size.x, size.y, draw.number == 1u)) / select(side.x, side.y, draw.number == 1u), 1.0);
     // Wide kernels in steps: the sums are smooth already.
     let stride = max(i32(2.5 * width / f32(calm_taps) + 0.5), 1);
     var sum = middle;

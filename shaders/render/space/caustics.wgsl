@@ -27,8 +27,12 @@ struct Landing {
     light: vec3f,
 }
 
+fn height_size() -> vec2f {
+    return vec2f(textureDimensions(height_map));
+}
+
 fn cell_size() -> vec2f {
-    return (frame.domain_max.xz - frame.domain_min.xz) / height_size;
+    return (frame.domain_max.xz - frame.domain_min.xz) / height_size();
 }
 
 // Where the light through a cell of the surface meets the floor.
@@ -37,7 +41,7 @@ fn landing(cell: vec2i) -> Landing {
     let rise = vec2f(height_at(cell + vec2i(1, 0)) - height_at(cell - vec2i(1, 0)),
                      height_at(cell + vec2i(0, 1)) - height_at(cell - vec2i(0, 1)));
     // Water stands level along the walls, where the sums know its height least.
-    let from_wall = (0.5 * height_size - abs(vec2f(cell) + 0.5 - 0.5 * height_size)) * cell_size();
+    let from_wall = (0.5 * height_size() - abs(vec2f(cell) + 0.5 - 0.5 * height_size())) * cell_size();
     let slope = rise / (2.0 * cell_size()) * clamp(from_wall / (2.4 * frame.spacing) - 0.5, vec2f(0.0), vec2f(1.0));
     let normal = normalize(vec3f(-slope.x, 1.0, -slope.y));
     let ray = refract(-sun, normal, into_water);
@@ -61,7 +65,7 @@ fn held(xx: f32, xy: f32, yy: f32) -> vec4f {
 @vertex
 fn caustics_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) number: u32) -> Photon {
     let count = vec2u(frame.photon_columns, frame.photon_rows);
-    let more = vec2i(count) - vec2i(i32(height_size));
+    let more = vec2i(count) - vec2i(height_size());
     // Towards the sun there are more cells than the floor has.
     let cell = vec2i(vec2u(number % count.x, number / count.x)) - select(vec2i(0), more, sun.xz < vec2f(0.0));
     let size = cell_size();
@@ -75,7 +79,7 @@ fn caustics_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) 
     photon.light = here.light * shape.w;
     let reach = photon.offset * size;
     let foot = here.foot + vec2f(dot(shape.xy, reach), dot(shape.yz, reach));
-    let place = foot / (size * height_size) * 2.0 - 1.0;
+    let place = foot / (size * height_size()) * 2.0 - 1.0;
     photon.place = vec4f(place * vec2f(1.0, -1.0), 0.5, 1.0);
     return photon;
 }

@@ -19,7 +19,7 @@ fn height_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) pa
     let share = whole * whole;
     if share <= 0.0 { return blob; }
     let side = frame.domain_max.xz - frame.domain_min.xz;
-    let radius = max(vec2f(height_radius * frame.spacing), 3.0 * side / height_size);
+    let radius = max(vec2f(height_radius * frame.spacing), 3.0 * side / vec2f(f32(frame.height_columns), f32(frame.height_rows)));
     let place = on_floor(point) * 2.0 - 1.0;
     blob.offset = square_corner(vertex);
     blob.place = vec4f((place + 2.0 * blob.offset * radius / side) * vec2f(1.0, -1.0), 0.5, 1.0);

@@ -1,7 +1,5 @@
 // Shared by the effects of sunlight in water: the surface as a height over the floor, and what it absorbs.
 
-const height_size = 256.0; // texels of the map; WEIR_HEIGHT_SIZE
-
 // Place in the maps of the domain's floor, 0 to 1.
 fn on_floor(point: vec3f) -> vec2f {
     return (point.xz - frame.domain_min.xz) / (frame.domain_max.xz - frame.domain_min.xz);

@@ -62,7 +62,7 @@ fn above_floor(map: texture_2d<f32>, point: vec3f) -> vec4f {
 
 // Height of the water's surface above the domain's bottom at a place, m; the nearest texel's.
 fn near_water_height(point: vec3f) -> f32 {
-    return texel_of(height_map, on_floor(point) * height_size).x;
+    return texel_of(height_map, on_floor(point) * vec2f(textureDimensions(height_map))).x;
 }
 
 // The same between texels.
