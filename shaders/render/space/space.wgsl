@@ -91,10 +91,11 @@ fn sky(direction: vec3f) -> vec3f {
 
 const floor_tone = vec3f(0.038, 0.056, 0.086); // of the light on it
 
-// The floor's share of the light that comes from the sky as from a polished stone, seen along `direction`.
+// The floor's share of the light that comes from the sky as from a polished stone, seen along `direction`; far off it melts
+// into the sky.
 fn floor_gloss(direction: vec3f) -> f32 {
-    let facing = clamp(-direction.y, 0.0, 1.0);
-    return 0.012 + 0.55 * pow(1.0 - facing, 48.0);
+    let flat = 1.0 - clamp(-direction.y, 0.0, 1.0);
+    return 0.012 + 0.45 * pow(flat, 48.0) + 0.538 * pow(flat, 200.0);
 }
 
 // Linear light of what lies around, in a direction: the sky, the floor far away.
