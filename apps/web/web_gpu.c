@@ -107,6 +107,12 @@ static WeirView read_view(const float v[WEIR_WEB_VIEW])
     };
 }
 
+WEIR_WEB(weir_web_renderer_draw_time)
+double weir_web_renderer_draw_time(const WeirWebRenderer *web)
+{
+    return weir_renderer_draw_time(web->renderer);
+}
+
 WEIR_WEB(weir_web_renderer_draw)
 WeirStatus weir_web_renderer_draw(WeirWebRenderer *web, WeirSim *sim, uint32_t width, uint32_t height,
                                   const float *view)

@@ -66,6 +66,9 @@ void weir_renderer_destroy(WeirRenderer *renderer); // NULL is allowed
 // run on the renderer's device.
 WeirStatus weir_renderer_draw(WeirRenderer *renderer, WeirSim *sim, const WeirView *view, void *target,
                               uint32_t width, uint32_t height);
+// Milliseconds that the device takes for a picture, averaged over those drawn lately; 0 where it gives no times or none is known
+// yet.
+double weir_renderer_draw_time(const WeirRenderer *renderer);
 // Message of the last call that failed; "" if none.
 const char *weir_renderer_error(const WeirRenderer *renderer);
 // sRGB bytes of the colour map at `t` in 0..1, the same as the shader's: for legends and the CPU fallback.

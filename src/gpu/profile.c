@@ -26,7 +26,7 @@ WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report)
     WeirProfile *profile = gpu->timestamps ? calloc(1, sizeof *profile) : NULL;
     if (!profile) return NULL;
     profile->gpu = gpu;
-    weir_report_begin(report);
+    if (report) weir_report_begin(report);
     profile->queries =
         wgpuDeviceCreateQuerySet(gpu->device, &(WGPUQuerySetDescriptor){.label = weir_gpu_text("profile"),
                                                                         .type = WGPUQueryType_Timestamp,
@@ -34,7 +34,7 @@ WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report)
     profile->resolved = weir_gpu_create_buffer(
         gpu, "profile", WGPUBufferUsage_QueryResolve | WGPUBufferUsage_CopySrc, RESOLVE_SIZE);
     profile->readback = weir_readback_create(gpu, "profile readback", 1, &(uint64_t){RESOLVE_SIZE});
-    weir_report_end(report, "profile");
+    if (report) weir_report_end(report, "profile");
     profile->nanoseconds = weir_platform_timestamp_period(gpu);
     if (profile->readback) return profile;
     weir_profile_destroy(profile);
@@ -90,6 +90,21 @@ WGPUComputePassEncoder weir_profile_begin_batch(WeirProfile *profile, uint32_t s
 {
     profile->batch_steps = steps;
     return begin_timed(profile, profile->count, "steps", encoder);
+}
+
+WGPUPassTimestampWrites weir_profile_span_begin(WeirProfile *profile)
+{
+    profile->batch_steps = 1;
+    return (WGPUPassTimestampWrites){.querySet = profile->queries,
+                                     .beginningOfPassWriteIndex = 0,
+                                     .endOfPassWriteIndex = WGPU_QUERY_SET_INDEX_UNDEFINED};
+}
+
+WGPUPassTimestampWrites weir_profile_span_end(const WeirProfile *profile)
+{
+    return (WGPUPassTimestampWrites){.querySet = profile->queries,
+                                     .beginningOfPassWriteIndex = WGPU_QUERY_SET_INDEX_UNDEFINED,
+                                     .endOfPassWriteIndex = 1};
 }
 
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder)

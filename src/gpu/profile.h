@@ -6,7 +6,7 @@
 
 typedef struct WeirProfile WeirProfile;
 
-// NULL where the device gives no timestamps or memory runs out: all calls then do nothing.
+// NULL where the device gives no timestamps or memory runs out: all calls then do nothing. `report`: NULL for none.
 WeirProfile *weir_profile_create(WeirGpu *gpu, WeirReport *report);
 void weir_profile_destroy(WeirProfile *profile);
 // True if a step may be measured: none is under way.
@@ -19,6 +19,9 @@ void weir_profile_end_pass(WeirProfile *profile, WGPUComputePassEncoder encoder)
 // A compute pass for `steps` more steps, which the caller ends.
 WGPUComputePassEncoder weir_profile_begin_batch(WeirProfile *profile, uint32_t steps,
                                                 WGPUCommandEncoder encoder);
+// In place of passes and batch, one span over several passes, as one step: what the first of them is given, and the last.
+WGPUPassTimestampWrites weir_profile_span_begin(WeirProfile *profile);
+WGPUPassTimestampWrites weir_profile_span_end(const WeirProfile *profile);
 // Ends the measurement: before and after its commands are submitted.
 void weir_profile_resolve(WeirProfile *profile, WGPUCommandEncoder encoder);
 void weir_profile_submitted(WeirProfile *profile);

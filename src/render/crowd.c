@@ -148,21 +148,21 @@ WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, ui
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory to draw %u particles.", count);
 }
 
-void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
-                      uint32_t count)
+void weir_crowd_count(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
+    WGPUCommandEncoder encoder = drawing->encoder;
+    uint32_t count = drawing->particle_count;
     const WeirCrowd *crowd = &renderer->crowd;
     uint32_t groups = (count + GROUP_SIZE - 1) / GROUP_SIZE;
     uint32_t rows = (groups + GROUPS_PER_ROW - 1) / GROUPS_PER_ROW;
     wgpuQueueWriteBuffer(weir_gpu_wgpu_queue(renderer->gpu), crowd->draw, 0, draw_none, sizeof draw_none);
-    if (groups == 0) return;
     wgpuCommandEncoderClearBuffer(encoder, crowd->cells, 0, (uint64_t)CELL_BYTES * crowd->cell_count);
-    WGPUComputePassEncoder pass =
-        wgpuCommandEncoderBeginComputePass(encoder, &(WGPUComputePassDescriptor){.nextInChain = NULL});
-    for (int stage = 0; stage < STAGES; stage++) {
+    WGPUComputePassEncoder pass = wgpuCommandEncoderBeginComputePass(
+        encoder, &(WGPUComputePassDescriptor){.timestampWrites = drawing->begins});
+    for (int stage = 0; stage < STAGES && groups > 0; stage++) {
         wgpuComputePassEncoderSetPipeline(pass, crowd->pipelines[stage]);
         wgpuComputePassEncoderSetBindGroup(pass, 0, renderer->frame_group, 0, NULL);
-        wgpuComputePassEncoderSetBindGroup(pass, 1, particles, 0, NULL);
+        wgpuComputePassEncoderSetBindGroup(pass, 1, drawing->uncounted, 0, NULL);
         wgpuComputePassEncoderSetBindGroup(pass, 2, crowd->group, 0, NULL);
         wgpuComputePassEncoderDispatchWorkgroups(pass, rows > 1 ? GROUPS_PER_ROW : groups, rows, 1);
     }

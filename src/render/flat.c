@@ -95,7 +95,8 @@ WeirStatus weir_flat_prepare(WeirRenderer *renderer, const WeirFrame *frame)
 
 // A pass over the effects from `first` to `last` that the picture has and that are switched on.
 static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing, WGPUTextureView target,
-                      double alpha, WeirEffectKind first, WeirEffectKind last)
+                      double alpha, WeirEffectKind first, WeirEffectKind last,
+                      const WGPUPassTimestampWrites *writes)
 {
     WGPURenderPassColorAttachment color = {.view = target,
                                            .depthSlice = WGPU_DEPTH_SLICE_UNDEFINED,
@@ -103,7 +104,9 @@ static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing, WGPUTe
                                            .storeOp = WGPUStoreOp_Store,
                                            .clearValue = {.a = alpha}};
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1, .colorAttachments = &color});
+        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = 1,
+                                                      .colorAttachments = &color,
+                                                      .timestampWrites = writes});
     for (int kind = (int)first; kind <= (int)last; kind++) {
         if (!(renderer->effects & 1u << kind)) continue;
         if (!weir_effect_needed((WeirEffectKind)kind, 2, drawing->water)) continue;
@@ -121,7 +124,13 @@ void weir_flat_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     for (int k = 0; k < WEIR_FLAT_TEXTURES && drawing->water; k++) {
         WeirEffectKind kind = k == 0 ? WEIR_EFFECT_FIELD : WEIR_EFFECT_SOLID_FIELD;
-        draw_pass(renderer, drawing, renderer->flat.views[k], 0.0, kind, kind);
+        draw_pass(renderer, drawing, renderer->flat.views[k], 0.0, kind, kind,
+                  k == 0 ? drawing->begins : NULL);
     }
-    draw_pass(renderer, drawing, drawing->target, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY);
+    WGPUPassTimestampWrites both;
+    if (drawing->ends) both = *drawing->ends;
+    if (drawing->ends && !drawing->water)
+        both.beginningOfPassWriteIndex = drawing->begins->beginningOfPassWriteIndex;
+    draw_pass(renderer, drawing, drawing->target, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY,
+              drawing->ends ? &both : NULL);
 }

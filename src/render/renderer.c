@@ -74,6 +74,7 @@ static WeirStatus prepare(WeirRenderer *renderer)
     WGPUDevice device = weir_gpu_wgpu_device(renderer->gpu);
     if (!renderer->frame_layout) create_layouts(renderer, device);
     create_frame_group(renderer, device, weir_gpu_wgpu_queue(renderer->gpu));
+    if (!renderer->profile) renderer->profile = weir_profile_create(renderer->gpu, NULL);
     if (renderer->frame_group) return WEIR_OK;
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the renderer's uniforms.");
 }
@@ -142,6 +143,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
         WGPUPipelineLayout layout = renderer->pipeline_layouts[textures];
         if (layout) wgpuPipelineLayoutRelease(layout);
     }
+    weir_profile_destroy(renderer->profile);
     weir_flat_release(renderer);
     weir_space_release(renderer);
     weir_crowd_release(renderer);
@@ -154,6 +156,11 @@ void weir_renderer_destroy(WeirRenderer *renderer)
 const char *weir_renderer_error(const WeirRenderer *renderer)
 {
     return renderer->message.text;
+}
+
+double weir_renderer_draw_time(const WeirRenderer *renderer)
+{
+    return weir_profile_step(renderer->profile);
 }
 
 // Bind group of these particles: a known one, or a new one in the slot that was not drawn for longest. Slots
@@ -257,14 +264,26 @@ static void submit(WeirRenderer *renderer, WeirDrawing *drawing, uint32_t dimens
     WGPUQueue queue = weir_gpu_wgpu_queue(renderer->gpu);
     wgpuQueueWriteBuffer(queue, renderer->frame_buffer, 0, drawing->frame, sizeof *drawing->frame);
     drawing->encoder = wgpuDeviceCreateCommandEncoder(weir_gpu_wgpu_device(renderer->gpu), NULL);
+    weir_profile_poll(renderer->profile);
+    bool measured = weir_profile_ready(renderer->profile);
+    WGPUPassTimestampWrites begins, ends;
+    if (measured) {
+        weir_profile_start(renderer->profile);
+        begins = weir_profile_span_begin(renderer->profile);
+        ends = weir_profile_span_end(renderer->profile);
+        drawing->begins = &begins;
+        drawing->ends = &ends;
+    }
     if (dimension == 3)
         weir_space_draw(renderer, drawing);
     else
         weir_flat_draw(renderer, drawing);
+    if (measured) weir_profile_resolve(renderer->profile, drawing->encoder);
     WGPUCommandBuffer commands = wgpuCommandEncoderFinish(drawing->encoder, NULL);
     wgpuQueueSubmit(queue, 1, &commands);
     wgpuCommandBufferRelease(commands);
     wgpuCommandEncoderRelease(drawing->encoder);
+    if (measured) weir_profile_submitted(renderer->profile);
 }
 
 WeirStatus weir_renderer_draw_particles(WeirRenderer *renderer, const WeirSim *sim,

@@ -1,6 +1,7 @@
 // Inside of the renderer, for its own files and its tests.
 #pragma once
 
+#include "gpu/profile.h"
 #include "render/effect.h"
 #include "render/frame.h"
 
@@ -89,8 +90,9 @@ struct WeirRenderer {
     WeirCrowd crowd;
     WeirSolids solids;
     uint64_t frame_count;
-    uint32_t effects; // bit per WeirEffectKind that is drawn; all by default
-    bool all_shown;   // also those whom others hide on all sides; for tests
+    uint32_t effects;     // bit per WeirEffectKind that is drawn; all by default
+    bool all_shown;       // also those whom others hide on all sides; for tests
+    WeirProfile *profile; // of pictures
     WeirMessage message;
 };
 
@@ -103,6 +105,8 @@ typedef struct WeirDrawing {
     WeirMethod method;
     const WeirFrame *frame;
     bool water; // the fluid's style
+    // Of a picture that is measured, for its first pass and its last one.
+    const WGPUPassTimestampWrites *begins, *ends;
     WGPUTextureView target;
 } WeirDrawing;
 
@@ -125,8 +129,8 @@ void weir_flat_release(WeirRenderer *renderer);
 
 // crowd.c
 WeirStatus weir_crowd_prepare(WeirRenderer *renderer, const WeirFrame *frame, uint32_t count);
-void weir_crowd_count(WeirRenderer *renderer, WGPUCommandEncoder encoder, WGPUBindGroup particles,
-                      uint32_t count);
+// The first pass of a picture in 3D.
+void weir_crowd_count(WeirRenderer *renderer, const WeirDrawing *drawing);
 void weir_crowd_release(WeirRenderer *renderer);
 
 // solids.c

@@ -172,9 +172,11 @@ static void draw_pass(WeirRenderer *renderer, const WeirDrawing *drawing,
                       WeirEffectKind last)
 {
     WGPURenderPassEncoder pass = wgpuCommandEncoderBeginRenderPass(
-        drawing->encoder, &(WGPURenderPassDescriptor){.colorAttachmentCount = color ? 1 : 0,
-                                                      .colorAttachments = color,
-                                                      .depthStencilAttachment = depth});
+        drawing->encoder,
+        &(WGPURenderPassDescriptor){.colorAttachmentCount = color ? 1 : 0,
+                                    .colorAttachments = color,
+                                    .depthStencilAttachment = depth,
+                                    .timestampWrites = last == WEIR_EFFECT_COMPOSE ? drawing->ends : NULL});
     for (int kind = (int)first; kind <= (int)last; kind++) {
         WeirTextures textures = weir_effect_textures((WeirEffectKind)kind);
         if (textures == WEIR_TEXTURES_COMPOSE && drawing->water) textures = WEIR_TEXTURES_FINISH;
@@ -253,7 +255,7 @@ static void draw_water(WeirRenderer *renderer, const WeirDrawing *drawing)
 void weir_space_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
 {
     const WGPUTextureView *views = renderer->space.views;
-    weir_crowd_count(renderer, drawing->encoder, drawing->uncounted, drawing->particle_count);
+    weir_crowd_count(renderer, drawing);
     WGPURenderPassDepthStencilAttachment depth = cleared_depth(views[WEIR_SPACE_SHADOW], 1.0f);
     draw_pass(renderer, drawing, NULL, &depth, WEIR_EFFECT_SHADOW, WEIR_EFFECT_SOLID_SHADOW);
     if (drawing->water) {

@@ -1,6 +1,7 @@
 #include "styles.h"
 
 #include "adapter.h"
+#include "gpu/device.h"
 #include "image.h"
 #include "render/renderer.h"
 #include "upload.h"
@@ -29,6 +30,9 @@ void weir_test_styles_and_sizes(WeirGpu *gpu, WeirSim *sim, WeirView (*view_of)(
                          WEIR_OK);
         assert_true(weir_image_read(&images[k]));
     }
+    // Times of those before the last one have come.
+    double time = weir_renderer_draw_time(renderer);
+    assert_true(gpu->timestamps ? time > 0.01 && time < 10e3 : time == 0.0);
     assert_memory_equal(images[0].pixels, images[FRAMES - 1].pixels, (size_t)4 * 64 * 48);
     assert_memory_not_equal(images[0].pixels, images[1].pixels, (size_t)4 * 64 * 48);
     for (int k = 0; k < FRAMES; k++) weir_image_destroy(&images[k]);

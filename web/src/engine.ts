@@ -24,7 +24,7 @@ export type EngineStats = {
   frames: number; // drawn, each with a newer state than the last one
   frameSteps: number; // of the last frame
   stepMs: number; // milliseconds per step, averaged
-  drawMs: number; // of a frame besides its steps, where a graphics card tells what these take; 0: not known
+  drawMs: number; // milliseconds that the device draws a picture, averaged; 0: not known
   passes: PassTime[]; // empty where the device gives no times
   diagnostics: Diagnostics | null;
   clock: Clock | null; // wcsph only

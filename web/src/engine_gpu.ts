@@ -217,14 +217,14 @@ export class GpuEngine implements Engine {
   readonly #done = (): void => {
     const now = performance.now();
     const begin = Math.max(this.#sent[0] as number, this.#lastDone);
-    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#intervalMs, this.#deviceMs());
+    this.stats.drawMs = this.gpu.isSoftware || this.#destroyed ? 0 : this.#renderer.drawTime;
+    this.#pace.measured(this.#sentSteps[0] as number, now - begin, this.#intervalMs, this.#deviceMs(), this.stats.drawMs);
     this.#lastDone = now;
     this.#sent.copyWithin(0, 1);
     this.#sentSteps.copyWithin(0, 1);
     this.#inFlight--;
     this.stats.frames++;
     this.stats.stepMs = this.#pace.stepMs;
-    this.stats.drawMs = this.#deviceMs() > 0 ? this.#pace.besidesMs : 0;
     if (!this.#sim || this.#destroyed) return;
     this.stats.steps = this.#sim.stepCount + this.#stepOffset;
     this.stats.time = this.#sim.time + this.#timeOffset;

@@ -1,10 +1,11 @@
 // How many steps a frame may take: what fits beside all else that a frame takes (drawing above all), so that frames keep to
 // the display's. Where that is too little, a frame lasts two of the display's, or three: better fewer frames than slow
-// motion. What a step takes the device tells, or the last frames do: they take something without any step and something
-// per step, and a line is fitted to both.
+// motion. What steps and drawing take the device tells, or the last frames do: they take something without any step and
+// something per step, and a line is fitted to both.
 
 const mostSteps = 1024;
-const usable = 0.97; // of a frame
+const usable = 0.95; // of a frame
+const lateMs = 5; // that a browser may tell of a frame's end too late
 // Shares of a frame for its steps. Between the first two it stays as long as it is: how late a browser tells of a frame's end
 // depends on whether the device waits for the display.
 const tooLittle = 0.35;
@@ -16,7 +17,6 @@ const probeEvery = 8; // frames; a few more steps then, or all frames would be a
 export class Pace {
   maxSteps = 2; // careful at the start: a step may be slow here
   stepMs = 0; // milliseconds per step; 0: not known yet
-  besidesMs = 0; // of a frame besides its steps
   readonly #longestMs: number;
   #limit = 2;
   #intervals = 1; // of the display that a frame lasts
@@ -34,15 +34,15 @@ export class Pace {
     this.#longestMs = longestMs;
   }
 
-  // A frame with `steps` steps took `ms`. `deviceMs`: of a step, by the device's clock; 0: not known.
-  measured(steps: number, ms: number, intervalMs: number, deviceMs = 0): void {
+  // A frame with `steps` steps took `ms`. By the device's clock, 0 where not known: `deviceMs`, of a step; `drawMs`, of drawing.
+  measured(steps: number, ms: number, intervalMs: number, deviceMs = 0, drawMs = 0): void {
     if (!(ms >= 0)) return;
     if (deviceMs > 0 && !this.#told) this.#forget(); // frames until then were busy with other things
     this.#told = deviceMs > 0;
     this.#add(steps, ms);
     if (this.#told) this.stepMs = deviceMs;
     else this.#fit();
-    if (this.stepMs > 0) this.#limitSteps(intervalMs);
+    if (this.stepMs > 0) this.#limitSteps(intervalMs, drawMs);
   }
 
   #add(steps: number, ms: number): void {
@@ -71,9 +71,10 @@ export class Pace {
     this.stepMs = Math.max(this.stepMs, 1e-4);
   }
 
-  #limitSteps(intervalMs: number): void {
-    this.besidesMs = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
-    const affordable = Math.floor(this.#roomBeside(this.besidesMs, intervalMs) / this.stepMs);
+  #limitSteps(intervalMs: number, drawMs: number): void {
+    const besides = Math.max((this.#y - this.stepMs * this.#x) / this.#n, 0);
+    const fixed = drawMs > 0 ? Math.max(drawMs, besides - lateMs) : besides;
+    const affordable = Math.floor(this.#roomBeside(fixed, intervalMs) / this.stepMs);
     // Grows gently, because a few steps say little about many; shrinks at once.
     this.#limit = Math.max(1, Math.min(affordable, Math.ceil(1.5 * this.#limit), mostSteps));
     const probe = !this.#told && this.#frames % probeEvery === 0 ? Math.max(1, this.#limit >> 2) : 0;
@@ -98,7 +99,7 @@ export class Pace {
     this.maxSteps = this.#limit = 2;
     this.#intervals = 1;
     this.#told = false;
-    this.stepMs = this.besidesMs = 0;
+    this.stepMs = 0;
     this.#forget();
   }
 }

@@ -99,7 +99,8 @@ export class StatusLine {
     this.#show(cells);
     const passes = stats.passes.map((pass) => `${pass.name} ${formatNumber(pass.milliseconds, 2)}`);
     const timing = passes.length > 0 ? `ms per pass: ${passes.join(' · ')}` : `${formatNumber(stats.stepMs, 2)} ms per step`;
-    this.#details.textContent = `${engine.device}   ·   ${timing}   ·   ${formatNumber(this.stepsPerFrame, 2)} steps per frame   ·   ${stats.time.toFixed(2)} s simulated`;
+    const drawing = stats.drawMs > 0 ? `   ·   ${formatNumber(stats.drawMs, 2)} ms to draw` : '';
+    this.#details.textContent = `${engine.device}   ·   ${timing}${drawing}   ·   ${formatNumber(this.stepsPerFrame, 2)} steps per frame   ·   ${stats.time.toFixed(2)} s simulated`;
   }
 }
 

@@ -748,6 +748,11 @@ export class Renderer {
     return c.weir_web_renderer_draw(this.#pointer, sim.pointer, this.#canvas.width, this.#canvas.height, this.#view);
   }
 
+  // Milliseconds that the device takes for a picture, averaged; 0: not known.
+  get drawTime(): number {
+    return this.#context.c.weir_web_renderer_draw_time(this.#pointer);
+  }
+
   destroy(): void {
     if (this.#pointer === 0) return;
     this.#context.c.weir_web_renderer_destroy(this.#pointer);
