@@ -192,10 +192,8 @@ static void walls_hide_no_fluid(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_are_closed),
-        cmocka_unit_test(forms_are_the_shapes),
-        cmocka_unit_test(large_meshes_are_not_tried),
-        cmocka_unit_test(meshes_keep_their_edges),
+        cmocka_unit_test(shapes_are_closed),          cmocka_unit_test(forms_are_the_shapes),
+        cmocka_unit_test(large_meshes_are_not_tried), cmocka_unit_test(meshes_keep_their_edges),
         cmocka_unit_test(walls_hide_no_fluid),
     };
     return cmocka_run_group_tests_name("render: shapes", tests, NULL, NULL);

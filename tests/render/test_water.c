@@ -518,7 +518,8 @@ static void still_water_mirrors_the_horizon(void **state)
 
 // ---- What is seen through still water ----
 
-static const double surface_height = 0.41; // half a spacing above the highest layer, and a little: it is made of balls
+static const double surface_height =
+    0.41; // half a spacing above the highest layer, and a little: it is made of balls
 
 static WeirSim *pool_of_ball(double radius)
 {
@@ -611,7 +612,8 @@ static void a_ball_under_water_is_where_snell_says(void **state)
         ptrdiff_t shift = (pixel_of(&ball, &view, at) - straight) / 4 / SIZE;
         assert_true(labs(shift) >= 10); // rows: more than it is high
         const uint8_t *floor = plain.pixels + (straight - ball.pixels);
-        if (difference(straight, floor) > 24) fail_msg("the floor differs by %d", difference(straight, floor));
+        if (difference(straight, floor) > 24)
+            fail_msg("the floor differs by %d", difference(straight, floor));
         weir_image_destroy(&plain);
         weir_image_destroy(&ball);
     }
@@ -625,12 +627,13 @@ static void deeper_is_bluer(void **state)
     WeirView view = view_of(WEIR_FLUID_WATER);
     int last = 0;
     for (int k = 0; k < 4; k++) {
-        const float position[3] = {0.5f, k == 0 ? 0.6f : 0.4f - 0.1f * (float)k, 0.5f}; // the first in the air
+        const float position[3] = {0.5f, k == 0 ? 0.6f : 0.4f - 0.1f * (float)k,
+                                   0.5f}; // the first in the air
         const double at[3] = {0.5, (double)position[1] + 0.03, 0.5};
         WeirImage image;
         draw_body(*state, sim, &view, position, &image);
-        const uint8_t *seen = k == 0 ? pixel_at(&image, &view, 0.5f, position[1] + 0.03f, 0.5f)
-                                     : pixel_of(&image, &view, at);
+        const uint8_t *seen =
+            k == 0 ? pixel_at(&image, &view, 0.5f, position[1] + 0.03f, 0.5f) : pixel_of(&image, &view, at);
         int warm = seen[0] - seen[2];
         if (k > 0 && !(warm < last - 12)) fail_msg("red over blue %d, less deep %d", warm, last);
         last = warm;

@@ -54,8 +54,9 @@ fn surface_at(pixel: vec2i) -> vec2f {
     return textureLoad(surface, clamp(pixel, vec2i(0), vec2i(frame.size) - 1), 0).xy;
 }
 
-// From the pixel before or after, whichever is less of a jump: no normals across an edge.
-fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec3f {
+// From the pixel before or after, whichever is less of a jump: no normals across an edge. 1 where it
+// goes on to both sides.
+fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec4f {
     let one = surface_at(pixel + axis).x;
     let other = surface_at(pixel - axis).x;
     let jump_one = select(1e9, abs(one - depth), one > 0.0);
@@ -64,11 +65,11 @@ fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec3f {
     // Where the surface goes on to both sides its mean slope: the lesser of two turns it to the eye.
     if max(jump_one, jump_other) < 1.5 * frame.spacing * depth * depth / frame.near {
         let ahead = pixel_ray(place + vec2f(axis)) * (frame.near / one);
-        return 0.5 * (ahead - pixel_ray(place - vec2f(axis)) * (frame.near / other));
+        return vec4f(0.5 * (ahead - pixel_ray(place - vec2f(axis)) * (frame.near / other)), 1.0);
     }
-    if min(jump_one, jump_other) > 1e8 { return pixel_ray(place + vec2f(axis)) * middle.z - middle; }
-    if jump_one <= jump_other { return pixel_ray(place + vec2f(axis)) * (frame.near / one) - middle; }
-    return middle - pixel_ray(place - vec2f(axis)) * (frame.near / other);
+    if min(jump_one, jump_other) > 1e8 { return vec4f(pixel_ray(place + vec2f(axis)) * middle.z - middle, 0.0); }
+    if jump_one <= jump_other { return vec4f(pixel_ray(place + vec2f(axis)) * (frame.near / one) - middle, 0.0); }
+    return vec4f(middle - pixel_ray(place - vec2f(axis)) * (frame.near / other), 0.0);
 }
 
 // Of the side of the domain that the ray enters through.
@@ -128,10 +129,10 @@ fn next_target(start: vec3f, ray: vec3f) -> Target {
     if ray.y <= 0.0 { return end; }
     let above = start.y - frame.domain_min.y;
     let guess = clamp((near_water_height(start) - above) / ray.y, 0.0, way);
-    let rise = (near_water_height(start + ray * guess) - above) / ray.y;
+    let rise = (water_height(start + ray * guess) - above) / ray.y;
     if rise < end.met.way && rise * ray.y > -frame.spacing {
         let rest = max(rise, 0.0);
-        end = Target(Meeting(rest, normal_from_below(start + ray * rest), vec3f(0.0), end.met.veiled), SURFACE);
+        end = Target(Meeting(rest, normal_from_below(start + ray * rest), 0.0, 0u, end.met.veiled), SURFACE);
     }
     return end;
 }
@@ -149,15 +150,19 @@ fn all_under_water(start: vec3f, way: vec3f) -> f32 {
     return smoothstep(0.30, 0.80, 0.2 * sum);
 }
 
+fn met_color(met: Meeting) -> vec3f {
+    return to_linear(solid_color(met.solid)) * met.tone;
+}
+
 // Linear light of a wall or body at a point.
 fn solid_light(met: Meeting, point: vec3f) -> vec3f {
-    return matte(met.color, met.normal, light_on_solid(point, met.normal));
+    return matte(met_color(met), met.normal, light_on_solid(point, met.normal));
 }
 
 // Linear light that comes along a ray: from the solid that it meets, else from the floor or the sky. `before`: its way from
 // the eye to its start, m.
 fn light_along(start: vec3f, ray: vec3f, met: Meeting, before: f32) -> vec3f {
-    if met.color.g > 0.0 { return solid_light(met, start + ray * met.way); }
+    if met.tone > 0.0 { return solid_light(met, start + ray * met.way); }
     if ray.y > -1e-3 { return surroundings(ray); }
     let way = (ground_height() - start.y) / ray.y;
     let foot = start + ray * way;
@@ -186,7 +191,7 @@ fn seen_through(point: vec3f, direction: vec3f, bent: vec3f, straight: f32, pixe
     let end = first.met.way;
     let share = all_under_water(point, bent * end);
     let way = min(mix(straight, end, share), end);
-    var through = Through(vec3f(0.0), way);
+    var through = Through(vec3f(0.0), 0.0);
     // Drops behind a thin sheet, and meshes that no ray meets, are what the scene shows straight behind.
     let thin = share < 0.5 && straight < 3.0 * frame.spacing;
     if (thin || first.met.veiled) && lies_in_domain(direction * (scene_ahead(pixel) / dot(direction, frame.ahead.xyz))) {
@@ -194,32 +199,32 @@ fn seen_through(point: vec3f, direction: vec3f, bent: vec3f, straight: f32, pixe
     }
     var mirrored = 0.0;
     if first.kind != FLOOR { mirrored = share * mirrored_within(abs(dot(bent, first.met.normal))); }
-    if mirrored < 0.98 {
+    let arrives = first.kind == FLOOR && share > 0.99;
+    for (var k = 0; k < 2; k++) { // what goes on, what is mirrored
+        let part = select(1.0 - mirrored, mirrored, k == 1);
+        if part < 0.02 { continue; }
         var start = point;
         var ray = bent;
-        var met = first.met;
-        if first.kind != FLOOR || share < 0.99 {
+        var next = first;
+        var passed = 0.0;
+        if k == 1 {
+            for (var n = 0; n < 2 && next.kind != FLOOR; n++) {
+                start += ray * next.met.way;
+                passed += next.met.way;
+                ray = reflect(ray, next.met.normal);
+                next = next_target(start, ray);
+            }
+        } else if !arrives {
             start += bent * way;
+            passed = way;
             ray = direction;
-            met = meet_solids(start, ray, 1e9);
+            next.met = meet_solids(start, ray, 1e9);
         }
-        through.light = (1.0 - mirrored) * light_along(start, ray, met, before + way) * water_left(way);
+        let light = light_along(start, ray, next.met, before + passed);
+        if k == 1 || arrives { passed += next.met.way; }
+        through.light += part * light * water_left(passed);
+        through.way += part * passed;
     }
-    if mirrored < 0.02 { return through; }
-    var start = point;
-    var ray = bent;
-    var next = first;
-    var passed = 0.0;
-    for (var k = 0; k < 2 && next.kind != FLOOR; k++) {
-        start += ray * next.met.way;
-        passed += next.met.way;
-        ray = reflect(ray, next.met.normal);
-        next = next_target(start, ray);
-    }
-    let light = light_along(start, ray, next.met, before + passed);
-    passed += next.met.way;
-    through.light += mirrored * light * water_left(passed);
-    through.way = mix(way, passed, mirrored);
     return through;
 }
 
@@ -242,16 +247,19 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     let direction = to_world(normalize(middle));
     let point = frame.eye.xyz + to_world(middle);
     var normal: vec3f;
+    var whole = true;
     if depth < 0.0 {
         normal = side_normal(direction, point);
     } else {
         let across = derivative(pixel, vec2i(1, 0), middle, depth);
         let down = derivative(pixel, vec2i(0, 1), middle, depth);
-        normal = normalize(to_world(cross(across, down)));
+        normal = normalize(to_world(cross(across.xyz, down.xyz)));
         if dot(normal, direction) > 0.0 { normal = -normal; }
+        whole = across.w * down.w > 0.0;
     }
     let facing = clamp(-dot(normal, direction), 0.0, 1.0);
-    let bent = refract(direction, normal, into_water);
+    // At an edge the slope is hardly known: bent rays would end anywhere.
+    let bent = select(direction, refract(direction, normal, into_water), whole);
     let thickness = thickness_at(place);
     let through = seen_through(point, direction, bent, thickness.x, vec2u(pixel));
     let lit = lit_roughly(point);
@@ -264,9 +272,9 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     // What the surface mirrors downwards meets the water once more and leaves it upwards: no dark specks at flat angles.
     if depth > 0.0 { mirrored.y = abs(mirrored.y); }
     var image: vec3f;
-    var met = Meeting(0.0, vec3f(0.0), vec3f(0.0), false);
+    var met = Meeting(0.0, vec3f(0.0), 0.0, 0u, false);
     if depth > 0.0 && fresnel > least_mirrored { met = meet_solids(point, mirrored, 1e9); }
-    if met.color.g > 0.0 { image = solid_light(met, point + mirrored * met.way); } else { image = surroundings(mirrored); }
+    if met.tone > 0.0 { image = matte(met_color(met), met.normal, vec3f(1.0)); } else { image = surroundings(mirrored); }
     light = mix(light, image, fresnel * (1.0 - 0.7 * foam));
     let shine = pow(max(dot(mirrored, sun), 0.0), 900.0);
     return light + lit * vec3f(6.0, 5.7, 5.2) * shine * (0.05 + fresnel);

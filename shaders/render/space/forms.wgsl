@@ -23,7 +23,8 @@ const dark_tone = 0.80; // shape.c
 struct Meeting {
     way: f32, // m
     normal: vec3f,
-    color: vec3f, // linear
+    tone: f32,    // of its colour; 0: it meets none
+    solid: u32,
     veiled: bool, // it passes a mesh of too many triangles to be asked
 }
 
@@ -32,11 +33,11 @@ struct Span {
     enter: f32,
     leave: f32,
     normal: vec3f,
-    dark: bool,
+    tone: f32,
 }
 
 fn no_span() -> Span {
-    return Span(1e9, -1e9, vec3f(0.0), false);
+    return Span(1e9, -1e9, vec3f(0.0), 1.0);
 }
 
 // No component is zero, so that one can divide by it.
@@ -50,12 +51,12 @@ fn box_span(start: vec3f, ray: vec3f, size: vec3f) -> Span {
     let far = -start * inverse + abs(inverse) * size;
     let enter = max(max(near.x, near.y), near.z);
     let normal = -sign(ray) * vec3f(near >= vec3f(enter));
-    return Span(enter, min(min(far.x, far.y), far.z), normal, false);
+    return Span(enter, min(min(far.x, far.y), far.z), normal, 1.0);
 }
 
-// Every other of eight sectors around an axis.
-fn other_sector(place: vec2f) -> bool {
-    return place.x * place.y * (place.x * place.x - place.y * place.y) < 0.0;
+// Of eight sectors around an axis, in turn positive and negative.
+fn sector(place: vec2f) -> f32 {
+    return place.x * place.y * (place.x * place.x - place.y * place.y);
 }
 
 fn ball_span(start: vec3f, ray: vec3f, radius: f32) -> Span {
@@ -64,7 +65,8 @@ fn ball_span(start: vec3f, ray: vec3f, radius: f32) -> Span {
     if square < 0.0 { return no_span(); }
     let half = sqrt(square);
     let place = start + ray * (along - half);
-    return Span(along - half, along + half, place / radius, other_sector(place.xz) != (place.y < 0.0));
+    let tone = select(1.0, dark_tone, sector(place.xz) * place.y < 0.0);
+    return Span(along - half, along + half, place / radius, tone);
 }
 
 // Its axis is y.
@@ -80,7 +82,8 @@ fn cylinder_span(start: vec3f, ray: vec3f, radius: f32, half_length: f32) -> Spa
     let place = start + ray * enter;
     var normal = vec3f(place.x, 0.0, place.z) / radius;
     if end > b - half { normal = vec3f(0.0, -sign(ray.y), 0.0); }
-    return Span(enter, min(b + half, -start.y / slope + half_length / abs(slope)), normal, other_sector(place.xz));
+    let leave = min(b + half, -start.y / slope + half_length / abs(slope));
+    return Span(enter, leave, normal, select(1.0, dark_tone, sector(place.xz) < 0.0));
 }
 
 // After Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997): of all triangles.
@@ -99,7 +102,7 @@ fn mesh_span(start: vec3f, ray: vec3f, first: u32, last: u32) -> Span {
         let way = scale * dot(other, turned);
         if !(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && way > 0.0 && way < found.enter) { continue; }
         let normals = mat3x3f(corners[2u * k + 1u].xyz, corners[2u * k + 3u].xyz, corners[2u * k + 5u].xyz);
-        found = Span(way, way, normals * vec3f(1.0 - u - v, u, v), false);
+        found = Span(way, way, normals * vec3f(1.0 - u - v, u, v), 1.0);
     }
     return found;
 }
@@ -121,27 +124,27 @@ fn form_span(k: u32, start: vec3f, ray: vec3f) -> Span {
     }
 }
 
-// What a ray meets if form `k` is there too, whose solid's reference point is at -`offset` from the ray's start.
+// What a ray meets, the normal in the solid's own axes, if form `k` is there too, whose solid's reference point is at -`offset` from the ray's start.
 fn nearer(before: Meeting, k: u32, solid: u32, offset: vec3f, ray: vec3f) -> Meeting {
     var met = before;
     if forms[k].kind > CYLINDER && forms[k].last == 0u {
         met.veiled = true;
         return met;
     }
-    let q = solid_state[solid].orientation;
-    let back = vec4f(-q.xyz, q.w);
+    let back = solid_state[solid].orientation * vec4f(-1.0, -1.0, -1.0, 1.0);
     let span = form_span(k, rotate(back, offset), rotate(back, ray));
     let way = max(span.enter, 0.0);
     if span.leave < way || way >= met.way { return met; }
     met.way = way;
-    met.normal = rotate(q, span.normal);
-    met.color = to_linear(solid_color(solid)) * select(1.0, dark_tone, span.dark);
+    met.normal = span.normal;
+    met.tone = span.tone;
+    met.solid = solid;
     return met;
 }
 
 // The first solid that a ray meets before `farthest`; if none, `way` is that.
 fn meet_solids(start: vec3f, ray: vec3f, farthest: f32) -> Meeting {
-    var met = Meeting(farthest, vec3f(0.0), vec3f(0.0), false);
+    var met = Meeting(farthest, vec3f(0.0), 0.0, 0u, false);
     for (var k = 0u; k < arrayLength(&forms); k++) {
         let solid = forms[k].solid;
         let reach = forms[k].reach;
@@ -152,5 +155,6 @@ fn meet_solids(start: vec3f, ray: vec3f, farthest: f32) -> Meeting {
             met = nearer(met, k, solid, offset, ray);
         }
     }
+    met.normal = rotate(solid_state[met.solid].orientation, met.normal);
     return met;
 }
