@@ -26,6 +26,7 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     }
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 4, .entries = particle_entries});
+    // clear_water alone does: three, where WebGPU promises eight.
     for (uint32_t k = 0; k < 3; k++) particle_entries[k].visibility = WGPUShaderStage_Fragment;
     renderer->form_layout = wgpuDeviceCreateBindGroupLayout(
         device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = particle_entries});
