@@ -26,6 +26,7 @@ extern const char weir_wgsl_render_space_calm[], weir_wgsl_render_space_caustics
 extern const char weir_wgsl_render_space_surface[], weir_wgsl_render_space_shown[];
 extern const char weir_wgsl_render_space_thickness[], weir_wgsl_render_space_smooth[];
 extern const char weir_wgsl_render_space_clear_water[], weir_wgsl_render_space_front_edges[];
+extern const char weir_wgsl_render_space_pool[], weir_wgsl_render_space_forms[];
 
 typedef enum Target {
     TARGET_PICTURE,   // the caller's
@@ -40,7 +41,7 @@ typedef enum Target {
     TARGETS,
 } Target;
 
-enum { SHARED = 6 };
+enum { SHARED = 10 };
 
 typedef struct Effect {
     const char *name; // of the WGSL file; its entry points are NAME_vertex and NAME_fragment
@@ -60,6 +61,8 @@ typedef struct Effect {
 #define SPHERE                   weir_wgsl_render_space_sphere
 #define LENS                     weir_wgsl_render_space_lens
 #define LIGHT                    weir_wgsl_render_space_light
+#define POOL                     weir_wgsl_render_space_pool
+#define FORMS                    weir_wgsl_render_space_forms
 #define GLOSS                    weir_wgsl_render_space_gloss
 #define ROTATION                 weir_wgsl_common_rotation
 #define SOLID_STATE              weir_wgsl_render_solid_state
@@ -90,7 +93,7 @@ static const Effect effects[WEIR_EFFECTS] = {
     [WEIR_EFFECT_BACKDROP] = EFFECT("backdrop", space_backdrop, .target = TARGET_SCENE),
     [WEIR_EFFECT_GROUND] =
         EFFECT("ground", space_ground, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
-               .shared = {LENS, LIGHT}, .blends = true, .tests_depth = true, .writes_depth = true),
+               .shared = {LENS, LIGHT, POOL}, .blends = true, .tests_depth = true, .writes_depth = true),
     [WEIR_EFFECT_SOLIDS] =
         EFFECT("solids", space_solids, .target = TARGET_SCENE, .textures = WEIR_TEXTURES_LIGHT,
                .shared = {LENS, LIGHT, GLOSS, ROTATION, SOLID_STATE, SOLID}, .triangles = true,
@@ -121,7 +124,7 @@ static const Effect effects[WEIR_EFFECTS] = {
                                   .textures = WEIR_TEXTURES_SURFACE, .shared = {LIQUID}),
     [WEIR_EFFECT_CLEAR_WATER] =
         EFFECT("clear_water", space_clear_water, .target = TARGET_COLOR, .textures = WEIR_TEXTURES_WATER,
-               .shared = {LENS, LIGHT, HOLLOWS, LIQUID}),
+               .shared = {LENS, LIGHT, HOLLOWS, LIQUID, POOL, GLOSS, ROTATION, SOLID_STATE, SOLID, FORMS}),
     [WEIR_EFFECT_FRONT_EDGES] = EFFECT("front_edges", space_front_edges, .target = TARGET_COLOR,
                                        .textures = WEIR_TEXTURES_SURFACE, .shared = {EDGE}, .blends = true),
 };

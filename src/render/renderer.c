@@ -28,10 +28,16 @@ static void create_layouts(WeirRenderer *renderer, WGPUDevice device)
     renderer->particle_layout = wgpuDeviceCreateBindGroupLayout(
         device,
         &(WGPUBindGroupLayoutDescriptor){.entryCount = WEIR_PARTICLE_BINDINGS, .entries = particle_entries});
+    // clear_water alone does: three, where WebGPU promises eight.
+    for (uint32_t k = 0; k < 3; k++) particle_entries[k].visibility = WGPUShaderStage_Fragment;
+    renderer->form_layout = wgpuDeviceCreateBindGroupLayout(
+        device, &(WGPUBindGroupLayoutDescriptor){.entryCount = 3, .entries = particle_entries});
     weir_flat_create_layouts(renderer, device);
     weir_space_create_layouts(renderer, device);
     for (int textures = 0; textures < WEIR_TEXTURE_GROUPS; textures++) {
-        WGPUBindGroupLayout groups[3] = {renderer->frame_layout, renderer->particle_layout,
+        bool traced = textures == WEIR_TEXTURES_WATER;
+        WGPUBindGroupLayout groups[3] = {renderer->frame_layout,
+                                         traced ? renderer->form_layout : renderer->particle_layout,
                                          renderer->texture_layouts[textures]};
         renderer->pipeline_layouts[textures] = wgpuDeviceCreatePipelineLayout(
             device, &(WGPUPipelineLayoutDescriptor){
@@ -50,7 +56,9 @@ static void create_frame_group(WeirRenderer *renderer, WGPUDevice device, WGPUQu
         wgpuDeviceCreateBuffer(device, &(WGPUBufferDescriptor){.usage = usage, .size = sizeof(WeirFrame)});
     renderer->color_buffer =
         wgpuDeviceCreateBuffer(device, &(WGPUBufferDescriptor){.usage = usage, .size = sizeof words});
-    if (!renderer->frame_buffer || !renderer->color_buffer) return;
+    renderer->nothing = wgpuDeviceCreateBuffer(
+        device, &(WGPUBufferDescriptor){.usage = WGPUBufferUsage_Storage, .size = sizeof(WeirSolidState)});
+    if (!renderer->frame_buffer || !renderer->color_buffer || !renderer->nothing) return;
     wgpuQueueWriteBuffer(queue, renderer->color_buffer, 0, words, sizeof words);
     WGPUBindGroupEntry entries[2] = {
         {.binding = 0, .buffer = renderer->frame_buffer, .size = sizeof(WeirFrame)},
@@ -133,6 +141,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
     if (renderer->frame_group) wgpuBindGroupRelease(renderer->frame_group);
     release_buffer(renderer->frame_buffer);
     release_buffer(renderer->color_buffer);
+    release_buffer(renderer->nothing);
     for (int method = 0; method < 2; method++) {
         for (int kind = 0; kind < WEIR_EFFECTS; kind++) {
             WGPURenderPipeline pipeline = renderer->pipelines[method][kind];
@@ -148,6 +157,7 @@ void weir_renderer_destroy(WeirRenderer *renderer)
     weir_space_release(renderer);
     weir_crowd_release(renderer);
     weir_solids_release(renderer);
+    if (renderer->form_layout) wgpuBindGroupLayoutRelease(renderer->form_layout);
     if (renderer->particle_layout) wgpuBindGroupLayoutRelease(renderer->particle_layout);
     if (renderer->frame_layout) wgpuBindGroupLayoutRelease(renderer->frame_layout);
     free(renderer);
@@ -244,6 +254,10 @@ void weir_renderer_effect(WeirRenderer *renderer, WGPURenderPassEncoder pass, We
         instances = renderer->solids.shape_count;
         if (instances == 0) return;
         particles = renderer->solids.group;
+        break;
+    case WEIR_EFFECT_CLEAR_WATER:
+        particles = renderer->solids.traced;
+        vertices = 3;
         break;
     default:
         vertices = 3;

@@ -64,6 +64,8 @@ typedef struct WeirSolids {
     WGPUBuffer edges;     // 2D: of polygons
     WGPUBindGroup edged;  // they are in
     uint32_t shape_count; // corners, in 2D shapes; 0: walls and bodies are drawn as particles
+    WGPUBuffer forms;     // 3D: array<WeirForm>
+    WGPUBindGroup traced; // 3D: what rays meet; in place of the particles' too
 } WeirSolids;
 
 // flat.c: the fields that water in 2D is made of: of the fluid, of solids.
@@ -80,9 +82,11 @@ struct WeirRenderer {
     WGPUTextureFormat format;
     // Bind group 0: frame and colour maps, 1: particles, 2: textures.
     WGPUBindGroupLayout frame_layout, particle_layout, texture_layouts[WEIR_TEXTURE_GROUPS];
+    WGPUBindGroupLayout form_layout; // group 1 where fragments meet forms with rays
     WGPUPipelineLayout pipeline_layouts[WEIR_TEXTURE_GROUPS];
     WGPURenderPipeline pipelines[2][WEIR_EFFECTS]; // by WeirMethod; made when first drawn
     WGPUBuffer frame_buffer, color_buffer;
+    WGPUBuffer nothing; // bound where a scene has no solids: zeros
     WGPUBindGroup frame_group;
     WeirParticleGroup groups[WEIR_PARTICLE_GROUPS];
     WeirFlat flat;

@@ -234,6 +234,51 @@ static void add_mesh(const Job *job, const WeirMesh *mesh)
     meetings_end(&meetings);
 }
 
+// ---- Forms ----
+
+// Its middle and size; `radius` is that of the ball around it.
+static WeirForm form_of(const Job *job, const double low[3], const double high[3], double radius)
+{
+    WeirForm form = {.solid = job->solid};
+    double middle[3];
+    for (int k = 0; k < 3; k++) {
+        middle[k] = 0.5 * (low[k] + high[k]) - job->reference[k];
+        form.middle[k] = (float)middle[k];
+        form.size[k] = (float)(0.5 * (high[k] - low[k]));
+    }
+    form.reach = (float)(sqrt(dot(middle, middle)) + radius);
+    return form;
+}
+
+static void add_form(const Job *job, const WeirShape *shape, const double low[3], const double high[3],
+                     uint32_t first)
+{
+    WeirTriangles *triangles = job->triangles;
+    double diagonal[3];
+    for (int k = 0; k < 3; k++) diagonal[k] = high[k] - low[k];
+    double radius = shape->kind == WEIR_SHAPE_BALL ? shape->radius : 0.5 * sqrt(dot(diagonal, diagonal));
+    WeirForm form = form_of(job, low, high, radius);
+    form.kind = (uint32_t)shape->kind;
+    if (shape->kind == WEIR_SHAPE_CYLINDER) {
+        double axis[3], across[3], unused[3];
+        for (int k = 0; k < 3; k++) axis[k] = shape->to[k] - shape->from[k];
+        double length = sqrt(dot(axis, axis));
+        for (int k = 0; k < 3; k++) axis[k] /= length;
+        frame_of(axis, across, unused);
+        for (int k = 0; k < 3; k++) {
+            form.axis[k] = (float)axis[k];
+            form.across[k] = (float)across[k];
+        }
+        form.size[0] = (float)shape->radius;
+        form.size[1] = (float)(0.5 * length);
+    }
+    if (shape->kind == WEIR_SHAPE_MESH && triangles->count - first <= WEIR_FORM_CORNERS) {
+        form.first = first;
+        form.last = triangles->count;
+    }
+    triangles->forms[triangles->form_count++] = form;
+}
+
 // ---- All of them ----
 
 static void add_piece(WeirTriangles *triangles, const WeirScene *scene, const WeirSolidPiece *piece,
@@ -242,13 +287,15 @@ static void add_piece(WeirTriangles *triangles, const WeirScene *scene, const We
     Job job = {.triangles = triangles, .solid = solid};
     weir_piece_reference(piece, 3, job.reference);
     const WeirShape *shape = &piece->shape;
+    uint32_t first = triangles->count;
     double low[3], high[3];
+    weir_shape_bounds(shape, 3, low, high);
     switch (shape->kind) {
     case WEIR_SHAPE_BOX:
         for (int k = 0; k < 3; k++) {
             bool cut = !is_body && !piece->is_driven;
-            low[k] = cut ? fmax(shape->min[k], scene->domain_min[k]) : shape->min[k];
-            high[k] = cut ? fmin(shape->max[k], scene->domain_max[k]) : shape->max[k];
+            low[k] = cut ? fmax(low[k], scene->domain_min[k]) : low[k];
+            high[k] = cut ? fmin(high[k], scene->domain_max[k]) : high[k];
             if (low[k] >= high[k]) return;
         }
         add_box(&job, low, high);
@@ -263,8 +310,9 @@ static void add_piece(WeirTriangles *triangles, const WeirScene *scene, const We
         add_mesh(&job, &shape->mesh);
         break;
     default:
-        break;
+        return;
     }
+    add_form(&job, shape, low, high, first);
 }
 
 const WeirSolidPiece *weir_shown_piece(const WeirScene *scene, uint32_t n)

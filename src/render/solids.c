@@ -18,7 +18,9 @@ static void release(WeirSolids *solids)
 {
     if (solids->group) wgpuBindGroupRelease(solids->group);
     if (solids->edged) wgpuBindGroupRelease(solids->edged);
+    if (solids->traced) wgpuBindGroupRelease(solids->traced);
     release_buffer(solids->shapes);
+    release_buffer(solids->forms);
     release_buffer(solids->edges);
     if (solids->states) wgpuBufferRelease(solids->states);
     *solids = (WeirSolids){.group = NULL};
@@ -62,11 +64,32 @@ static bool create_triangles(WeirRenderer *renderer, const WeirScene *scene)
     WeirTriangles triangles;
     weir_triangles_of(&triangles, scene);
     // Those of a mesh too large for a buffer stay what they are made of: particles.
-    bool any = !triangles.failed && triangles.count > 0;
-    bool good = !any || create(renderer, triangles.corners, triangles.count * sizeof *triangles.corners,
-                               triangles.count);
+    bool good = true;
+    if (!triangles.failed && triangles.count > 0) {
+        WeirSolids *solids = &renderer->solids;
+        solids->forms = create_buffer(renderer, WGPUBufferUsage_Storage, triangles.forms,
+                                      triangles.form_count * sizeof *triangles.forms);
+        good = solids->forms && create(renderer, triangles.corners,
+                                       triangles.count * sizeof *triangles.corners, triangles.count);
+    }
     weir_triangles_free(&triangles);
     return good;
+}
+
+// What clear_water.wgsl meets with rays: corners, states, forms.
+static bool create_traced(WeirRenderer *renderer)
+{
+    WeirSolids *solids = &renderer->solids;
+    const WGPUBuffer buffers[3] = {solids->shapes, solids->states, solids->forms};
+    WGPUBindGroupEntry entries[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        entries[k] = (WGPUBindGroupEntry){
+            .binding = k, .buffer = buffers[k] ? buffers[k] : renderer->nothing, .size = WGPU_WHOLE_SIZE};
+    }
+    solids->traced = wgpuDeviceCreateBindGroup(
+        weir_gpu_wgpu_device(renderer->gpu),
+        &(WGPUBindGroupDescriptor){.layout = renderer->form_layout, .entryCount = 3, .entries = entries});
+    return solids->traced != NULL;
 }
 
 static bool create_edges(WeirRenderer *renderer, const WeirFlatShapes *flat)
@@ -99,14 +122,16 @@ WeirStatus weir_solids_prepare(WeirRenderer *renderer, const WeirScene *scene,
                                const WeirGpuParticles *particles)
 {
     WeirSolids *solids = &renderer->solids;
-    if (solids->states == particles->solids) return WEIR_OK;
+    bool space = scene->dimension == 3, good = true;
+    if (solids->states == particles->solids && (solids->traced || !space)) return WEIR_OK;
     release(solids);
-    if (!particles->solids) return WEIR_OK;
-    // A reference, so that no other simulation's buffer gets its address.
-    wgpuBufferAddRef(particles->solids);
-    solids->states = particles->solids;
-    bool good = scene->dimension == 3 ? create_triangles(renderer, scene) : create_flat(renderer, scene);
-    if (good) return WEIR_OK;
+    if (particles->solids) {
+        // A reference, so that no other simulation's buffer gets its address.
+        wgpuBufferAddRef(particles->solids);
+        solids->states = particles->solids;
+        good = space ? create_triangles(renderer, scene) : create_flat(renderer, scene);
+    }
+    if (good && (!space || create_traced(renderer))) return WEIR_OK;
     release(solids);
     return weir_fail(&renderer->message, WEIR_ERROR_MEMORY, "No device memory for the shapes of the bodies.");
 }

@@ -73,6 +73,75 @@ static void shapes_are_closed(void **state)
     weir_scene_destroy(scene);
 }
 
+static void check_form(const WeirForm *form, WeirShapeKind kind, uint32_t solid, const double middle[3],
+                       const double size[3], double reach)
+{
+    assert_int_equal(form->kind, kind);
+    assert_int_equal(form->solid, solid);
+    CHECK_NEAR((double)form->reach, reach, 1e-6);
+    for (int k = 0; k < 3; k++) {
+        CHECK_NEAR((double)form->middle[k], middle[k], 1e-6);
+        CHECK_NEAR((double)form->size[k], size[k], 1e-6);
+    }
+}
+
+// What rays meet: the shapes themselves, in the solid's own axes.
+static void forms_are_the_shapes(void **state)
+{
+    (void)state;
+    static const double nowhere[3] = {0, 0, 0};
+    WeirScene *scene = tank();
+    set(scene, "walls[0].box.min", (double[]){1, -0.5, 0.4}, 3);
+    set(scene, "walls[0].box.max", (double[]){1.2, 0.3, 0.6}, 3);
+    set(scene, "bodies[0].ball.center", (double[]){0.5, 0.5, 0.5}, 3);
+    weir_scene_set_number(scene, "bodies[0].ball.radius", 0.2);
+    set(scene, "bodies[1].cylinder.from", (double[]){1.5, 0.3, 0.3}, 3);
+    set(scene, "bodies[1].cylinder.to", (double[]){1.5, 0.9, 0.3}, 3);
+    weir_scene_set_number(scene, "bodies[1].cylinder.radius", 0.1);
+    WeirTriangles triangles;
+    weir_triangles_of(&triangles, scene);
+    assert_int_equal(triangles.form_count, 3);
+    // The wall ends at the floor, and its reference point is what was its middle.
+    check_form(&triangles.forms[0], WEIR_SHAPE_BOX, 1, (double[]){0, 0.25, 0}, (double[]){0.1, 0.15, 0.1},
+               0.25 + sqrt(0.0425));
+    check_form(&triangles.forms[1], WEIR_SHAPE_BALL, 2, nowhere, (double[]){0.2, 0.2, 0.2}, 0.2);
+    const WeirForm *cylinder = &triangles.forms[2];
+    check_form(cylinder, WEIR_SHAPE_CYLINDER, 3, nowhere, (double[]){0.1, 0.3, 0.1}, sqrt(0.11));
+    CHECK_NEAR((double)cylinder->axis[1], 1.0, 1e-6);
+    double length = 0.0;
+    for (int k = 0; k < 3; k++) length += (double)(cylinder->across[k] * cylinder->across[k]);
+    CHECK_NEAR(length, 1.0, 1e-6);
+    CHECK_NEAR((double)cylinder->across[1], 0.0, 1e-6);
+    weir_triangles_free(&triangles);
+    weir_scene_destroy(scene);
+}
+
+// Rays try every triangle of a mesh, so not those of a large one.
+static void large_meshes_are_not_tried(void **state)
+{
+    (void)state;
+    enum { MOST = WEIR_FORM_CORNERS };
+    static double indices[MOST + 3];
+    for (int k = 0; k < MOST + 3; k++) indices[k] = k % 3;
+    for (int extra = 0; extra < 2; extra++) {
+        WeirScene *scene = tank();
+        set(scene, "walls[0].box.min", (double[]){1, 0, 0.4}, 3);
+        set(scene, "walls[0].box.max", (double[]){1.2, 0.3, 0.6}, 3);
+        set(scene, "walls[1].mesh.vertices", (double[]){0, 0, 0, 0.2, 0, 0, 0, 0.2, 0}, 9);
+        set(scene, "walls[1].mesh.triangles", indices, MOST + 3 * (size_t)extra);
+        set(scene, "walls[1].motion.velocity", (double[]){0.1, 0, 0}, 3);
+        set(scene, "walls[1].motion.pivot", (double[]){0.1, 0.1, 0}, 3);
+        WeirTriangles triangles;
+        weir_triangles_of(&triangles, scene);
+        assert_int_equal(triangles.form_count, 2);
+        assert_int_equal(triangles.forms[1].first, extra ? 0 : 36);
+        assert_int_equal(triangles.forms[1].last, extra ? 0 : 36 + MOST);
+        assert_true(triangles.forms[1].reach > 0.14f);
+        weir_triangles_free(&triangles);
+        weir_scene_destroy(scene);
+    }
+}
+
 // Of a mesh: a cube keeps its edges. A driven solid is kept about its pivot.
 static void meshes_keep_their_edges(void **state)
 {
@@ -123,8 +192,8 @@ static void walls_hide_no_fluid(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_are_closed),
-        cmocka_unit_test(meshes_keep_their_edges),
+        cmocka_unit_test(shapes_are_closed),          cmocka_unit_test(forms_are_the_shapes),
+        cmocka_unit_test(large_meshes_are_not_tried), cmocka_unit_test(meshes_keep_their_edges),
         cmocka_unit_test(walls_hide_no_fluid),
     };
     return cmocka_run_group_tests_name("render: shapes", tests, NULL, NULL);

@@ -1,7 +1,9 @@
 // clear_water: the water over the scene behind it: reflection of the sky and of the sun, refraction, absorption and shafts
 // of light on the way through, the floor mirrored in the walls, foam.
-// in:  frame, light, surface (smoothed), thickness, the scene's depth, colours and occlusion
-// out: sRGB, every pixel; alpha 0 where compose is to smooth an edge
+// The view is bent at the surface; from there rays are followed in the world to the floor, the sides and the forms of walls
+// and bodies.
+// in:  frame, light, forms, solid_state, corners, surface (smoothed), thickness, the scene's depth, colours and occlusion
+// out: sRGB, every pixel; alpha 0 where compose is to smooth edges: in the water, where one ray per pixel makes steps
 
 @group(2) @binding(3) var surface: texture_2d<f32>;
 @group(2) @binding(4) var thickness_map: texture_2d<f32>;
@@ -11,7 +13,6 @@
 @group(2) @binding(8) var occlusions: texture_2d<f32>;
 
 const sample_count = 4;
-const mirror_steps = 24;
 const least_mirrored_within = 0.25;
 const shaft_steps = 4;
 const scattering = 0.26; // of light in the water, as absorption is told
@@ -22,41 +23,14 @@ fn clear_water_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) 
     return vec4f(f32(vertex & 1u) * 4.0 - 1.0, f32(vertex >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-// A direction of the world in view space.
-fn to_eye(direction: vec3f) -> vec3f {
-    return vec3f(dot(direction, frame.right.xyz), dot(direction, frame.up.xyz), dot(direction, frame.ahead.xyz));
-}
-
 fn scene_ahead(pixel: vec2u) -> f32 {
     return frame.near / max(textureLoad(depths, pixel, 0), 1e-6);
-}
-
-fn nearest_pixel(place: vec2f) -> vec2u {
-    return vec2u(clamp(place, vec2f(0.0), frame.size - 1.0));
 }
 
 // The scene without water, sRGB.
 fn scene_color(pixel: vec2u) -> vec3f {
     let color = textureLoad(colors, pixel, 0).rgb;
     return darkened(color, occlusion_at(occlusions, pixel, scene_ahead(pixel)));
-}
-
-// The same between four pixels, not darkened.
-fn scene_undarkened(place: vec2f) -> vec3f {
-    let last = frame.size - 1.0;
-    let at = clamp(place - 0.5, vec2f(0.0), last);
-    let corner = vec2u(at);
-    let next = min(corner + 1u, vec2u(last));
-    let part = fract(at);
-    let above = mix(textureLoad(colors, corner, 0).rgb, textureLoad(colors, vec2u(next.x, corner.y), 0).rgb, part.x);
-    let below = mix(textureLoad(colors, vec2u(corner.x, next.y), 0).rgb, textureLoad(colors, next, 0).rgb, part.x);
-    return mix(above, below, part.y);
-}
-
-// Linear light, between four pixels.
-fn scene_between(place: vec2f) -> vec3f {
-    let near = nearest_pixel(place);
-    return to_linear(darkened(scene_undarkened(place), occlusion_at(occlusions, near, scene_ahead(near))));
 }
 
 fn thickness_texel(at: vec2u) -> vec2f {
@@ -80,8 +54,9 @@ fn surface_at(pixel: vec2i) -> vec2f {
     return textureLoad(surface, clamp(pixel, vec2i(0), vec2i(frame.size) - 1), 0).xy;
 }
 
-// From the pixel before or after, whichever is less of a jump: no normals across an edge.
-fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec3f {
+// From the pixel before or after, whichever is less of a jump: no normals across an edge. 1 where it
+// goes on to both sides.
+fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec4f {
     let one = surface_at(pixel + axis).x;
     let other = surface_at(pixel - axis).x;
     let jump_one = select(1e9, abs(one - depth), one > 0.0);
@@ -90,11 +65,11 @@ fn derivative(pixel: vec2i, axis: vec2i, middle: vec3f, depth: f32) -> vec3f {
     // Where the surface goes on to both sides its mean slope: the lesser of two turns it to the eye.
     if max(jump_one, jump_other) < 1.5 * frame.spacing * depth * depth / frame.near {
         let ahead = pixel_ray(place + vec2f(axis)) * (frame.near / one);
-        return 0.5 * (ahead - pixel_ray(place - vec2f(axis)) * (frame.near / other));
+        return vec4f(0.5 * (ahead - pixel_ray(place - vec2f(axis)) * (frame.near / other)), 1.0);
     }
-    if min(jump_one, jump_other) > 1e8 { return pixel_ray(place + vec2f(axis)) * middle.z - middle; }
-    if jump_one <= jump_other { return pixel_ray(place + vec2f(axis)) * (frame.near / one) - middle; }
-    return middle - pixel_ray(place - vec2f(axis)) * (frame.near / other);
+    if min(jump_one, jump_other) > 1e8 { return vec4f(pixel_ray(place + vec2f(axis)) * middle.z - middle, 0.0); }
+    if jump_one <= jump_other { return vec4f(pixel_ray(place + vec2f(axis)) * (frame.near / one) - middle, 0.0); }
+    return vec4f(middle - pixel_ray(place - vec2f(axis)) * (frame.near / other), 0.0);
 }
 
 // Of the side of the domain that the ray enters through.
@@ -122,132 +97,135 @@ fn mirrored_within(cosine: f32) -> f32 {
     return select(1.0, least_mirrored_within + (1.0 - least_mirrored_within) * pow(1.0 - outside, 5.0), beyond > 0.0);
 }
 
-// Where a ray in the water leaves the domain, all in the world.
-struct Leaving {
-    way: f32,    // m
-    share: f32,  // how sure it is that the water goes on until there
-    normal: vec3f,
-    rest: f32,   // mirrored at a side, from there to the floor
+const FLOOR = 0u; // or a solid
+const SIDE = 1u;
+const SURFACE = 2u; // from within
+
+// What a ray in the domain comes to.
+struct Target {
+    met: Meeting,
+    kind: u32,
 }
 
-fn leaving(point: vec3f, bent: vec3f) -> Leaving {
-    let sides = select(frame.domain_min.xyz, frame.domain_max.xyz, bent > vec3f(0.0)) - point;
-    let ways = max(sides / select(vec3f(1e-6), bent, abs(bent) > vec3f(1e-6)), vec3f(0.0));
+// The water's normal from below.
+fn normal_from_below(point: vec3f) -> vec3f {
+    let step = vec2f(0.6 * frame.spacing, 0.0);
+    let rise_x = water_height(point + step.xyy) - water_height(point - step.xyy);
+    let rise_z = water_height(point + step.yyx) - water_height(point - step.yyx);
+    return normalize(vec3f(rise_x, -2.0 * step.x, rise_z));
+}
+
+fn next_target(start: vec3f, ray: vec3f) -> Target {
+    let low = vec3f(frame.domain_min.x, ground_height(), frame.domain_min.z);
+    let sides = select(low, frame.domain_max.xyz, ray > vec3f(0.0)) - start;
+    let ways = select(max(sides / divisor(ray), vec3f(0.0)), vec3f(1e9), abs(ray) < vec3f(1e-6));
     let way = min(min(ways.x, ways.z), ways.y);
-    var normal = vec3f(0.0, 1.0, 0.0);
-    if ways.y > way { normal = select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), ways.x < ways.z); }
-    var under = 0.0; // the surface, how much of the way
-    for (var k = 1; k <= 5; k++) {
-        let place = point + bent * (way * f32(k) / 5.0);
-        let depth = near_water_height(place) - (place.y - frame.domain_min.y);
-        under += 0.2 * smoothstep(-1.5, 0.5, depth / frame.spacing);
+    var end = Target(meet_solids(start, ray, way), select(SIDE, FLOOR, ways.y <= way && ray.y < 0.0));
+    if end.met.way < way { end.kind = FLOOR; }
+    if end.kind == SIDE {
+        end.met.normal = -sign(ray) * select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), ways.x < ways.z);
+        if ways.y <= way { end.met.normal = vec3f(0.0, -1.0, 0.0); }
     }
-    let share = smoothstep(0.30, 0.80, under);
-    return Leaving(way, share, normal, ways.y - way);
-}
-
-// At the floor the ray ends. At a side there is what `beyond` shows, and in it the floor as in a mirror.
-fn seen_at_side(point: vec3f, bent: vec3f, leaves: Leaving, beyond: Through) -> Through {
-    let at_floor = leaves.normal.y > 0.5;
-    let share = leaves.share * select(mirrored_within(abs(dot(bent, leaves.normal))), 1.0, at_floor);
-    if share < 0.02 { return beyond; }
-    let back = reflect(bent, leaves.normal);
-    let foot = point + bent * leaves.way + back * leaves.rest;
-    // Not the floor's outermost pixels, which are half something else.
-    let edge = vec3f(max(0.3 * frame.spacing, 2.5 * frame.pixel_size * length(point - frame.eye.xyz)));
-    let way = leaves.way + leaves.rest;
-    // The mean over what a pixel sees of the floor, long where it comes flat, or its tiles would make a moire.
-    let stretch = back * (frame.pixel_size * (length(point - frame.eye.xyz) + way) / (3.0 * max(-back.y, 0.05)));
-    var sum = vec3f(0.0);
-    for (var k = -1; k <= 1; k++) {
-        let place = clamp(foot + f32(k) * stretch, frame.domain_min.xyz + edge, frame.domain_max.xyz - edge);
-        let view = to_view(vec3f(place.x, frame.domain_min.y, place.z));
-        if view.z < frame.near { return beyond; }
-        sum += scene_undarkened(view_to_pixel(view));
+    if ray.y <= 0.0 { return end; }
+    let above = start.y - frame.domain_min.y;
+    let guess = clamp((near_water_height(start) - above) / ray.y, 0.0, way);
+    let rise = (water_height(start + ray * guess) - above) / ray.y;
+    if rise < end.met.way && rise * ray.y > -frame.spacing {
+        let rest = max(rise, 0.0);
+        end = Target(Meeting(rest, normal_from_below(start + ray * rest), 0.0, 0u, end.met.veiled), SURFACE);
     }
-    let mirrored = to_linear(sum / 3.0) * water_left(way);
-    return Through(mix(beyond.light, mirrored, share), mix(beyond.way, way, share));
+    return end;
 }
 
-// Whether what the scene shows at a pixel lies in the domain, or is its floor.
-fn found_in_domain(pixel: vec2f) -> bool {
-    let at = nearest_pixel(pixel);
-    let point = frame.eye.xyz + to_world(pixel_ray(pixel) * scene_ahead(at));
-    let margin = vec3f(0.02, 1.0, 0.02) * frame.spacing;
-    return all(point > frame.domain_min.xyz - margin) && all(point < frame.domain_max.xyz + margin);
+// How sure it is that a place is under water.
+fn under_water(place: vec3f) -> f32 {
+    let depth = near_water_height(place) - (place.y - frame.domain_min.y);
+    return smoothstep(-1.5, 0.5, depth / frame.spacing);
 }
 
-// What is seen through the water. The ray is bent into the water, goes on for its thickness, and leaves it parallel to the
-// way it came; where a thing lies in the water the ray ends there. All in view space.
-fn seen_through(point: vec3f, ray: vec3f, bent: vec3f, straight: f32, place: vec2f) -> Through {
-    let in_world = frame.eye.xyz + to_world(point);
-    // What goes up meets the surface from below, which throws it down.
-    var within = to_world(bent);
-    within.y = -max(abs(within.y), 0.05);
-    let leaves = leaving(in_world, within);
-    let thickness = mix(straight, max(straight, leaves.way), leaves.share);
-    var way = straight;
-    let steep = max(bent.z, 0.2);
-    for (var k = 0; k < 3; k++) {
-        let inside = point + bent * way;
-        let ahead = scene_ahead(nearest_pixel(view_to_pixel(inside)));
-        if ahead < point.z { // that stands before the water
-            way = thickness;
-            break;
+// The same of all of a way.
+fn all_under_water(start: vec3f, way: vec3f) -> f32 {
+    let sum = under_water(start + 0.1 * way) + under_water(start + 0.3 * way) + under_water(start + 0.5 * way)
+        + under_water(start + 0.7 * way) + under_water(start + 0.9 * way);
+    return smoothstep(0.30, 0.80, 0.2 * sum);
+}
+
+fn met_color(met: Meeting) -> vec3f {
+    return to_linear(solid_color(met.solid)) * met.tone;
+}
+
+// Linear light of a wall or body at a point.
+fn solid_light(met: Meeting, point: vec3f) -> vec3f {
+    return matte(met_color(met), met.normal, light_on_solid(point, met.normal));
+}
+
+// Linear light that comes along a ray: from the solid that it meets, else from the floor or the sky. `before`: its way from
+// the eye to its start, m.
+fn light_along(start: vec3f, ray: vec3f, met: Meeting, before: f32) -> vec3f {
+    if met.tone > 0.0 { return solid_light(met, start + ray * met.way); }
+    if ray.y > -1e-3 { return surroundings(ray); }
+    let way = (ground_height() - start.y) / ray.y;
+    let foot = start + ray * way;
+    // What a pixel sees of the floor is long where it comes flat.
+    let along = abs(ray.xz) / max(length(ray.xz), 1e-6);
+    let width = frame.pixel_size * (before + way) * (along.yx - along / ray.y);
+    let seen = floor_light(foot, ray, width, lit_share(foot));
+    let light = tempered(seen.rgb); // or waves would gather more than the floor beside shows
+    if seen.a >= 1.0 { return light; }
+    return mix(surroundings(ray), light, seen.a);
+}
+
+// Whether a point, from the eye, lies in the domain, above its floor.
+fn lies_in_domain(from_eye: vec3f) -> bool {
+    let point = frame.eye.xyz + from_eye;
+    let margin = vec3f(0.0, 0.05, 0.0) * frame.spacing;
+    return all(point > frame.domain_min.xyz + margin) && all(point < frame.domain_max.xyz);
+}
+
+// What is seen through the water at a point of its surface. The ray is bent into the water and ends at a solid or at the
+// floor; at a side, and at the surface from within, it is mirrored, and what is not goes on beyond. Where the water ends
+// before that it leaves it parallel to the way it came.
+fn seen_through(point: vec3f, direction: vec3f, bent: vec3f, straight: f32, pixel: vec2u) -> Through {
+    let before = length(point - frame.eye.xyz);
+    let first = next_target(point, bent);
+    let end = first.met.way;
+    let share = all_under_water(point, bent * end);
+    let way = min(mix(straight, end, share), end);
+    var through = Through(vec3f(0.0), 0.0);
+    // Drops behind a thin sheet, and meshes that no ray meets, are what the scene shows straight behind.
+    let thin = share < 0.5 && straight < 3.0 * frame.spacing;
+    if (thin || first.met.veiled) && lies_in_domain(direction * (scene_ahead(pixel) / dot(direction, frame.ahead.xyz))) {
+        return Through(to_linear(scene_color(pixel)) * water_left(straight), straight);
+    }
+    var mirrored = 0.0;
+    if first.kind != FLOOR { mirrored = share * mirrored_within(abs(dot(bent, first.met.normal))); }
+    let arrives = first.kind == FLOOR && share > 0.99;
+    for (var k = 0; k < 2; k++) { // what goes on, what is mirrored
+        let part = select(1.0 - mirrored, mirrored, k == 1);
+        if part < 0.02 { continue; }
+        var start = point;
+        var ray = bent;
+        var next = first;
+        var passed = 0.0;
+        if k == 1 {
+            for (var n = 0; n < 2 && next.kind != FLOOR; n++) {
+                start += ray * next.met.way;
+                passed += next.met.way;
+                ray = reflect(ray, next.met.normal);
+                next = next_target(start, ray);
+            }
+        } else if !arrives {
+            start += bent * way;
+            passed = way;
+            ray = direction;
+            next.met = meet_solids(start, ray, 1e9);
         }
-        way = clamp(way + 0.8 * (ahead - inside.z) / steep, 0.0, thickness);
+        let light = light_along(start, ray, next.met, before + passed);
+        if k == 1 || arrives { passed += next.met.way; }
+        through.light += part * light * water_left(passed);
+        through.way += part * passed;
     }
-    var end = point + bent * way;
-    let behind = scene_ahead(nearest_pixel(view_to_pixel(end)));
-    let rest = min(behind - end.z, 40.0 * thickness + frame.spacing);
-    if rest > 0.0 {
-        end += ray * (rest / ray.z);
-        way = min(way + rest, thickness); // no thing was there: the water goes on
-    }
-    var found = view_to_pixel(end);
-    // Nothing that stands before the water is seen in it.
-    if scene_ahead(nearest_pixel(found)) < point.z { found = place; }
-    let through = Through(scene_between(found) * water_left(way), way);
-    if found_in_domain(found) { return through; }
-    return seen_at_side(in_world, within, leaves, through);
-}
-
-// Where a ray that is before the scene at `before` and behind it at `after` meets it: halved, or steps would show.
-fn meeting(point: vec3f, ray: vec3f, before: f32, after: f32) -> f32 {
-    var low = before;
-    var high = after;
-    for (var k = 0; k < 4; k++) {
-        let half = 0.5 * (low + high);
-        let place = point + ray * half;
-        if place.z > scene_ahead(nearest_pixel(view_to_pixel(place))) { high = half; } else { low = half; }
-    }
-    return high;
-}
-
-// The scene that is seen in the water as in a mirror, with the share of the light that comes from it: steps along the
-// ray until it is behind something.
-fn mirrored_scene(point: vec3f, mirrored: vec3f) -> vec4f {
-    let reach = length(frame.domain_max.xyz - frame.domain_min.xyz);
-    var way = 1.5 * frame.spacing;
-    var before = 0.0;
-    for (var k = 0; k < mirror_steps; k++) {
-        let place = point + mirrored * way;
-        if place.z < frame.near { break; }
-        let pixel = view_to_pixel(place);
-        if any(pixel < vec2f(0.0)) || any(pixel >= frame.size) { break; }
-        let behind = place.z - scene_ahead(vec2u(pixel));
-        let step = max(0.12 * way, 1.2 * frame.spacing);
-        if behind > 0.0 && behind < 2.0 * step + 2.0 * frame.spacing {
-            let found = view_to_pixel(point + mirrored * meeting(point, mirrored, before, way));
-            if !found_in_domain(found) { break; } // the floor around is no part of the mirrored sky
-            let edge = min(found, frame.size - found) / (0.08 * frame.size);
-            return vec4f(scene_between(found), clamp(min(edge.x, edge.y), 0.0, 1.0));
-        }
-        before = way;
-        way += step;
-        if way > reach { break; }
-    }
-    return vec4f(0.0);
+    return through;
 }
 
 // Light of the sun and the sky that the water itself throws back on the ray's way in it, in shafts where the waves gather it.
@@ -266,22 +244,24 @@ fn scattered(point: vec3f, bent: vec3f, way: f32) -> vec3f {
 fn water_color(place: vec2f, depth: f32) -> vec3f {
     let pixel = vec2i(place);
     let middle = pixel_ray(place) * (frame.near / abs(depth));
-    let ray = normalize(middle);
-    let direction = to_world(ray);
+    let direction = to_world(normalize(middle));
     let point = frame.eye.xyz + to_world(middle);
     var normal: vec3f;
+    var whole = true;
     if depth < 0.0 {
         normal = side_normal(direction, point);
     } else {
         let across = derivative(pixel, vec2i(1, 0), middle, depth);
         let down = derivative(pixel, vec2i(0, 1), middle, depth);
-        normal = normalize(to_world(cross(across, down)));
+        normal = normalize(to_world(cross(across.xyz, down.xyz)));
         if dot(normal, direction) > 0.0 { normal = -normal; }
+        whole = across.w * down.w > 0.0;
     }
     let facing = clamp(-dot(normal, direction), 0.0, 1.0);
-    let bent = refract(direction, normal, into_water);
+    // At an edge the slope is hardly known: bent rays would end anywhere.
+    let bent = select(direction, refract(direction, normal, into_water), whole);
     let thickness = thickness_at(place);
-    let through = seen_through(middle, ray, to_eye(bent), thickness.x, place);
+    let through = seen_through(point, direction, bent, thickness.x, vec2u(pixel));
     let lit = lit_roughly(point);
     var light = through.light + scattered(point, bent, through.way) * mix(0.7, 1.0, lit);
     let foam = 1.0 - exp(-0.95 * thickness.y / frame.spacing);
@@ -291,25 +271,13 @@ fn water_color(place: vec2f, depth: f32) -> vec3f {
     var mirrored = reflect(direction, normal);
     // What the surface mirrors downwards meets the water once more and leaves it upwards: no dark specks at flat angles.
     if depth > 0.0 { mirrored.y = abs(mirrored.y); }
-    var image = surroundings(mirrored);
-    if depth > 0.0 && fresnel > least_mirrored {
-        let seen = mirrored_scene(middle, to_eye(mirrored));
-        image = mix(image, seen.rgb, seen.a);
-    }
+    var image: vec3f;
+    var met = Meeting(0.0, vec3f(0.0), 0.0, 0u, false);
+    if depth > 0.0 && fresnel > least_mirrored { met = meet_solids(point, mirrored, 1e9); }
+    if met.tone > 0.0 { image = matte(met_color(met), met.normal, vec3f(1.0)); } else { image = surroundings(mirrored); }
     light = mix(light, image, fresnel * (1.0 - 0.7 * foam));
     let shine = pow(max(dot(mirrored, sun), 0.0), 900.0);
     return light + lit * vec3f(6.0, 5.7, 5.2) * shine * (0.05 + fresnel);
-}
-
-// Whether the surface breaks off beside a pixel: where it ends, at a wave before another one, at a side of the domain.
-fn breaks_off(pixel: vec2i, depth: f32) -> bool {
-    let limit = 0.6 * frame.spacing * depth * depth / frame.near;
-    for (var k = 0u; k < 4u; k++) {
-        let step = select(vec2i(0, 1), vec2i(1, 0), k < 2u) * select(-1, 1, (k & 1u) == 1u);
-        let other = surface_at(pixel + step).x;
-        if sign(other) != sign(depth) || abs(other - depth) > limit { return true; }
-    }
-    return false;
 }
 
 // Water over the samples of a pixel that have nothing before it.
@@ -336,5 +304,5 @@ fn clear_water_fragment(@builtin(position) place: vec4f) -> @location(0) vec4f {
     if open < sample_count { return vec4f(over_samples(pixel, water, cover, abs(found.x)), 1.0); }
     var color = water;
     if cover < 1.0 { color = mix(scene_color(pixel), water, cover); }
-    return vec4f(color, select(1.0, 0.0, breaks_off(vec2i(pixel), found.x)));
+    return vec4f(color, 0.0);
 }

@@ -4,12 +4,24 @@
 @group(2) @binding(1) var height_map: texture_2d<f32>;   // calm.wgsl
 @group(2) @binding(2) var caustics_map: texture_2d<f32>; // caustics.wgsl
 
+// 1 where light of that depth in the map reaches a texel of it.
+fn lit_texel(at: vec2f, depth: f32) -> f32 {
+    if any(at < vec2f(0.0)) || any(at >= vec2f(shadow_size)) { return 1.0; }
+    return f32(textureLoad(shadow_map, vec2u(at), 0) > depth - 1e-3);
+}
+
 // Share of the light that reaches a point: the mean over 6 x 6 texels, `stride` apart.
 fn lit_share_within(point: vec3f, stride: f32) -> f32 {
-    var light = to_light(point);
-    light.z = min(light.z, 1.0); // beyond the map's depth lies nothing that casts
+    let light = to_light(point);
+    let depth = min(light.z, 1.0); // beyond the map's depth lies nothing that casts
     let texel = light_texel(light);
     let corner = select(floor(texel - 2.5), texel - 2.5 * stride, stride > 1.0);
+    if frame.water != 0u { // what casts then is large: where all of these agree, so do those between
+        let far = vec2f(5.0 * stride, 0.0);
+        let sum = lit_texel(corner, depth) + lit_texel(corner + far, depth) + lit_texel(corner + far.yx, depth)
+            + lit_texel(corner + far.xx, depth) + lit_texel(corner + 0.5 * far.xx, depth);
+        if sum == 0.0 || sum == 5.0 { return 0.2 * sum; }
+    }
     var lit = 0.0;
     var weight = 0.0;
     for (var y = 0; y < 6; y++) {
@@ -17,11 +29,7 @@ fn lit_share_within(point: vec3f, stride: f32) -> f32 {
             let at = corner + stride * vec2f(f32(x), f32(y));
             let away = (at + select(0.5, 0.0, stride > 1.0) - texel) / (3.2 * stride);
             let share = max(1.0 - dot(away, away), 0.0);
-            if any(at < vec2f(0.0)) || any(at >= vec2f(shadow_size)) {
-                lit += share;
-            } else {
-                lit += share * f32(textureLoad(shadow_map, vec2u(at), 0) > light.z - 1e-3);
-            }
+            lit += share * lit_texel(at, depth);
             weight += share;
         }
     }

@@ -24,9 +24,7 @@ fn solids_vertex(@builtin(vertex_index) vertex: u32) -> Face {
 fn solids_fragment(face: Face) -> @location(0) vec4f {
     let view = normalize(frame.eye.xyz - face.point);
     var normal = normalize(face.normal);
-    if dot(normal, view) < 0.0 { normal = -normal; } // seen from inside where the near plane cuts it open
-    // The shadow map knows the face itself too, as steps of a texel: looked up from as far before it as those reach.
-    let texel = 2.0 / (shadow_size * length(frame.light_rows[0].xyz));
-    let lit = lit_share_within(face.point + normal * (4.0 * texel), 1.0) * smoothstep(-0.05, 0.15, dot(normal, sun));
-    return vec4f(exposed(shade(face.color, 0.30, normal, view, mix(0.25, 1.0, lit) * sunlight_at(face.point))), 1.0);
+    // Seen from inside where the near plane cuts it open; at the rim of what is round normals may lean away a little.
+    if dot(normal, view) < -0.3 { normal = -normal; }
+    return vec4f(exposed(shade(face.color, 0.30, normal, view, light_on_solid(face.point, normal))), 1.0);
 }

@@ -52,9 +52,13 @@ const sun = vec3f(-0.3496, 0.8591, 0.3737); // towards the light; frame.c: light
 const sunlight = vec3f(1.38, 1.24, 1.06);    // linear light of a white surface that faces it
 
 // Linear light as a picture shows it: what is too bright for it comes near to white slowly.
-fn exposed(light: vec3f) -> vec3f {
+fn tempered(light: vec3f) -> vec3f {
     let over = max(light - 0.5, vec3f(0.0));
-    return to_srgb(min(light, vec3f(0.5)) + 0.5 * (1.0 - exp(-2.0 * over)));
+    return min(light, vec3f(0.5)) + 0.5 * (1.0 - exp(-2.0 * over));
+}
+
+fn exposed(light: vec3f) -> vec3f {
+    return to_srgb(tempered(light));
 }
 
 // Noise without steps, 0 to 1, one bump per unit.
