@@ -5,13 +5,9 @@
 
 #include "adapter.h"
 #include "common/build.h"
-#include "image.h"
-#include "render/camera.h"
-#include "render/renderer.h"
+#include "pool.h"
 #include "styles.h"
 #include "upload.h"
-
-enum { SIZE = 160 };
 
 static int start(void **state)
 {
@@ -23,61 +19,6 @@ static int end(void **state)
 {
     weir_gpu_destroy(*state);
     return 0;
-}
-
-// A tank of 1 m, four tenths full.
-static WeirScene *pool_scene(void)
-{
-    WeirScene *scene = weir_scene_create();
-    weir_scene_set_string(scene, "method", "wcsph");
-    weir_scene_set_number(scene, "dimension", 3);
-    weir_scene_set_number(scene, "parameters.particle_spacing", 0.04);
-    weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){1, 1, 1});
-    weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){1, 0.4, 1}, (double[]){0, 0, 0});
-    return scene;
-}
-
-// The same on the CPU; with a body that lies half in the water.
-static WeirSim *pool(bool with_body)
-{
-    WeirScene *scene = pool_scene();
-    if (with_body) {
-        weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.36, 0.24, 0.36}, 3);
-        weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.64, 0.56, 0.64}, 3);
-        weir_scene_set_number(scene, "bodies[0].density", 500);
-    }
-    WeirSim *sim = weir_test_sim(scene, NULL, 1);
-    weir_scene_destroy(scene);
-    return sim;
-}
-
-// From +z and above.
-static WeirView view_of(WeirFluidStyle style)
-{
-    return (WeirView){.color_by = WEIR_COLOR_SPEED,
-                      .color_max = 1.0f,
-                      .particle_radius = 0.024f,
-                      .camera_target = {0.5f, 0.4f, 0.5f},
-                      .camera_distance = 2.2f,
-                      .camera_pitch = 0.6f,
-                      .camera_field_of_view = 0.6f,
-                      .fluid_style = style};
-}
-
-static const uint32_t all = (1u << WEIR_EFFECTS) - 1;
-
-static void draw_particles(WeirGpu *gpu, WeirSim *sim, const WeirGpuParticles *particles,
-                           const WeirView *view, uint32_t effects, WeirImage *image)
-{
-    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
-    assert_non_null(renderer);
-    renderer->effects = effects;
-    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
-    if (weir_renderer_draw_particles(renderer, sim, particles, view, image->view, SIZE, SIZE) != WEIR_OK)
-        fail_msg("%s", weir_renderer_error(renderer));
-    assert_true(weir_image_read(image));
-    weir_renderer_destroy(renderer);
-    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
 }
 
 static void draw(WeirGpu *gpu, WeirSim *sim, const WeirView *view, WeirImage *image)
@@ -102,26 +43,6 @@ static void draw_one(WeirGpu *gpu, WeirSim *sim, uint32_t group, const WeirView 
     assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
     draw_particles(gpu, sim, &particles, view, effects, image);
     weir_upload_release(&particles);
-}
-
-// The pixel that shows a point of the tank.
-static const uint8_t *pixel_at(const WeirImage *image, const WeirView *view, float x, float y, float z)
-{
-    float matrix[16], clip[4], point[4] = {x, y, z, 1.0f};
-    weir_view_matrix(view, SIZE, SIZE, matrix);
-    for (int row = 0; row < 4; row++) {
-        clip[row] = 0.0f;
-        for (int column = 0; column < 4; column++) clip[row] += matrix[4 * column + row] * point[column];
-    }
-    uint32_t column = (uint32_t)((clip[0] / clip[3] + 1.0f) * SIZE / 2);
-    uint32_t row = (uint32_t)((1.0f - clip[1] / clip[3]) * SIZE / 2);
-    assert_true(column < SIZE && row < SIZE);
-    return image->pixels + 4 * ((size_t)row * SIZE + column);
-}
-
-static int difference(const uint8_t *a, const uint8_t *b)
-{
-    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
 }
 
 // Mean difference, of three channels, of pixels beside each other in the middle of the pool's surface.
@@ -448,43 +369,6 @@ static void a_sheet_that_moves_as_one_is_clear(void **state)
     weir_sim_destroy(sim);
 }
 
-// A pool of a lattice of particles, 1 m long and wide and 0.4 m deep with waves of that share of its depth; none: no water.
-static void upload_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, WeirGpuParticles *particles)
-{
-    enum { SIDE = 25, LAYERS = 10, COUNT = SIDE * SIDE * LAYERS };
-    const WeirConstants *constants = weir_sim_constants(sim);
-    int32_t(*coordinate)[4] = calloc(COUNT, sizeof *coordinate);
-    float(*motion)[4] = calloc(COUNT, sizeof *motion);
-    assert_true(coordinate && motion);
-    for (int i = 0; i < COUNT; i++) {
-        float place[3] = {0.04f * ((float)(i % SIDE) + 0.5f), 0.04f * ((float)(i / SIDE % LAYERS) + 0.5f),
-                          0.04f * ((float)(i / (SIDE * LAYERS)) + 0.5f)};
-        place[1] *= 1.0f + waves * cosf(4.0f * 3.14159265f * place[0]);
-        for (int k = 0; k < 3; k++)
-            coordinate[i][k] = (int32_t)lroundf((place[k] - constants->origin[k]) / constants->quantum);
-        coordinate[i][3] = (int32_t)(none ? WEIR_GROUP_EMPTY : WEIR_GROUP_FLUID);
-    }
-    assert_true(weir_upload_arrays(gpu, coordinate, motion, COUNT, particles));
-    free(coordinate);
-    free(motion);
-}
-
-static void draw_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, const WeirView *view,
-                       uint32_t effects, WeirImage *image)
-{
-    WeirGpuParticles particles;
-    upload_waves(gpu, sim, waves, none, &particles);
-    draw_particles(gpu, sim, &particles, view, effects, image);
-    weir_upload_release(&particles);
-}
-
-// Linear light of a channel, before it was exposed (space.wgsl).
-static double light_of(uint8_t value)
-{
-    double s = value / 255.0, shown = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
-    return shown < 0.5 ? shown : 0.5 - 0.5 * log(1.0 - (shown - 0.5) / 0.5);
-}
-
 // Of the ratio of two pictures' green light on the floor, but for `margin` at its edges.
 typedef struct Ratio {
     double least, most, mean;
@@ -564,260 +448,6 @@ static void still_water_mirrors_the_horizon(void **state)
     weir_sim_destroy(sim);
 }
 
-// ---- What is seen through still water ----
-
-static const double surface_height =
-    0.41; // half a spacing above the highest layer, and a little: it is made of balls
-
-static WeirSim *pool_of_ball(double radius)
-{
-    WeirScene *scene = pool_scene();
-    weir_scene_set_numbers(scene, "bodies[0].ball.center", (double[]){0.5, 0.7, 0.5}, 3);
-    weir_scene_set_number(scene, "bodies[0].ball.radius", radius);
-    weir_scene_set_number(scene, "bodies[0].density", 500);
-    WeirSim *sim = weir_test_sim(scene, NULL, 1);
-    weir_scene_destroy(scene);
-    return sim;
-}
-
-// Still water, and the pool's body at `position`.
-static void draw_body(WeirGpu *gpu, WeirSim *sim, const WeirView *view, const float position[3],
-                      WeirImage *image)
-{
-    WeirGpuParticles particles;
-    WeirState now;
-    upload_waves(gpu, sim, 0.0f, false, &particles);
-    assert_int_equal(weir_sim_state(sim, &now), WEIR_OK);
-    WeirSolidState solids[2] = {now.solids[0], now.solids[1]};
-    memcpy(solids[1].position, position, 3 * sizeof *position);
-    assert_true(weir_upload_solids(&particles, solids, 2));
-    draw_particles(gpu, sim, &particles, view, all, image);
-    weir_upload_release(&particles);
-}
-
-// The point of the surface at which the eye sees a point of the water, by Snell's law.
-static void seen_at(const WeirView *view, const double point[3], float place[3])
-{
-    WeirCameraAxes axes = weir_camera_axes(view, SIZE, SIZE);
-    const double height = (double)axes.eye[1] - surface_height, depth = surface_height - point[1];
-    const double x = point[0] - (double)axes.eye[0], z = point[2] - (double)axes.eye[2];
-    const double across = hypot(x, z);
-    double low = 0.0, high = 1.0;
-    for (int k = 0; k < 60; k++) {
-        double part = 0.5 * (low + high), above = part * across, below = across - above;
-        if (above / hypot(above, height) < 1.33 * below / hypot(below, depth))
-            low = part;
-        else
-            high = part;
-    }
-    place[0] = axes.eye[0] + (float)(low * x);
-    place[1] = (float)surface_height;
-    place[2] = axes.eye[2] + (float)(low * z);
-}
-
-static const uint8_t *pixel_of(const WeirImage *image, const WeirView *view, const double point[3])
-{
-    float place[3];
-    seen_at(view, point, place);
-    return pixel_at(image, view, place[0], place[1], place[2]);
-}
-
-// The middle of the pixels that are redder with the body than without, near one: columns and rows from it.
-static void middle_of_body(const uint8_t *with, const uint8_t *without, double middle[2])
-{
-    enum { REACH = 14 };
-    double sum = 0.0;
-    middle[0] = middle[1] = 0.0;
-    for (int y = -REACH; y <= REACH; y++) {
-        for (int x = -REACH; x <= REACH; x++) {
-            ptrdiff_t at = 4 * ((ptrdiff_t)y * SIZE + x);
-            if (with[at] - with[at + 2] < without[at] - without[at + 2] + 40) continue;
-            sum += 1.0;
-            middle[0] += x;
-            middle[1] += y;
-        }
-    }
-    for (int k = 0; k < 2; k++) middle[k] /= fmax(sum, 1.0);
-    if (!(sum > 60.0)) fail_msg("only %g pixels of the ball", sum);
-}
-
-// And not where it is: there the floor behind it shows.
-static void a_ball_under_water_is_where_snell_says(void **state)
-{
-    WeirSim *with = pool_of_ball(0.06), *without = pool(false);
-    const float yaws[] = {0.0f, 0.7f};
-    for (int k = 0; k < 2; k++) {
-        WeirView view = view_of(WEIR_FLUID_WATER);
-        view.camera_yaw = yaws[k];
-        WeirImage plain, ball;
-        draw_waves(*state, without, 0.0f, false, &view, all, &plain);
-        const double at[3] = {0.5, 0.12, 0.45};
-        draw_body(*state, with, &view, (const float[3]){0.5f, 0.12f, 0.45f}, &ball);
-        double off[2];
-        middle_of_body(pixel_of(&ball, &view, at), pixel_of(&plain, &view, at), off);
-        if (!(hypot(off[0], off[1]) < 1.6)) fail_msg("%g, %g pixels off", off[0], off[1]);
-        const uint8_t *straight = pixel_at(&ball, &view, 0.5f, 0.12f, 0.45f);
-        ptrdiff_t shift = (pixel_of(&ball, &view, at) - straight) / 4 / SIZE;
-        assert_true(labs(shift) >= 10); // rows: more than it is high
-        const uint8_t *floor = plain.pixels + (straight - ball.pixels);
-        if (difference(straight, floor) > 24)
-            fail_msg("the floor differs by %d", difference(straight, floor));
-        weir_image_destroy(&plain);
-        weir_image_destroy(&ball);
-    }
-    weir_sim_destroy(with);
-    weir_sim_destroy(without);
-}
-
-static void deeper_is_bluer(void **state)
-{
-    WeirSim *sim = pool_of_ball(0.06);
-    WeirView view = view_of(WEIR_FLUID_WATER);
-    int last = 0;
-    for (int k = 0; k < 4; k++) {
-        const float position[3] = {0.5f, k == 0 ? 0.6f : 0.4f - 0.1f * (float)k,
-                                   0.5f}; // the first in the air
-        const double at[3] = {0.5, (double)position[1] + 0.03, 0.5};
-        WeirImage image;
-        draw_body(*state, sim, &view, position, &image);
-        const uint8_t *seen =
-            k == 0 ? pixel_at(&image, &view, 0.5f, position[1] + 0.03f, 0.5f) : pixel_of(&image, &view, at);
-        int warm = seen[0] - seen[2];
-        if (k > 0 && !(warm < last - 12)) fail_msg("red over blue %d, less deep %d", warm, last);
-        last = warm;
-        weir_image_destroy(&image);
-    }
-    weir_sim_destroy(sim);
-}
-
-// From above into the water and flat onto a side: nothing leaves there, and the ball before it is seen again behind it.
-static void a_side_mirrors_a_ball(void **state)
-{
-    WeirSim *with = pool_of_ball(0.05), *without = pool(false);
-    WeirView view = view_of(WEIR_FLUID_WATER);
-    WeirCameraAxes axes = weir_camera_axes(&view, SIZE, SIZE);
-    assert_true(axes.eye[2] > 1.5f); // it looks to the side z = 0
-    WeirImage plain, ball;
-    draw_waves(*state, without, 0.0f, false, &view, all, &plain);
-    draw_body(*state, with, &view, (const float[3]){0.5f, 0.18f, 0.08f}, &ball);
-    for (int k = 0; k < 2; k++) {
-        const double at[3] = {0.5, 0.18, k ? -0.08 : 0.08};
-        double off[2];
-        middle_of_body(pixel_of(&ball, &view, at), pixel_of(&plain, &view, at), off);
-        if (!(fabs(off[0]) < 1.0 && fabs(off[1]) < 6.0)) fail_msg("%d: %g, %g off", k, off[0], off[1]);
-        const uint8_t *seen = pixel_of(&ball, &view, at), *before = pixel_of(&plain, &view, at);
-        assert_true(seen[0] - seen[2] > before[0] - before[2] + 40);
-    }
-    weir_image_destroy(&plain);
-    weir_image_destroy(&ball);
-    weir_sim_destroy(with);
-    weir_sim_destroy(without);
-}
-
-// From its top down to where Snell's law has its lower edge there is body, without a gap, and then no more.
-static void a_body_half_in_water_is_one(void **state)
-{
-    WeirSim *with = pool(true), *without = pool(false);
-    WeirView view = view_of(WEIR_FLUID_WATER);
-    view.camera_pitch = 0.5f;
-    WeirImage body, plain;
-    draw_waves(*state, without, 0.0f, false, &view, all, &plain);
-    draw_body(*state, with, &view, (const float[3]){0.5f, 0.40f, 0.5f}, &body);
-    const uint8_t *top = pixel_at(&body, &view, 0.5f, 0.56f, 0.64f),
-                  *bottom = pixel_of(&body, &view, (const double[3]){0.5, 0.24, 0.64});
-    int rows = (int)((bottom - top) / 4 / SIZE);
-    assert_true(rows > 15);
-    for (int row = 0; row < rows + 8; row++) {
-        const uint8_t *seen = top + 4 * row * SIZE, *other = plain.pixels + (seen - body.pixels);
-        int warmer = seen[0] - seen[2] - (other[0] - other[2]);
-        if (row < rows - 1 && warmer < 120) fail_msg("a gap in row %d of %d: %d", row, rows, warmer);
-        if (row > rows + 2 && warmer > 80) fail_msg("still body in row %d of %d: %d", row, rows, warmer);
-    }
-    weir_image_destroy(&body);
-    weir_image_destroy(&plain);
-    weir_sim_destroy(with);
-    weir_sim_destroy(without);
-}
-
-// The same box as twelve triangles.
-static void a_mesh_is_seen_as_what_it_is(void **state)
-{
-    static const double triangles[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-    double corners[24];
-    for (int k = 0; k < 24; k++) {
-        bool high = (k / 3) >> (k % 3) & 1;
-        corners[k] = k % 3 == 1 ? (high ? 0.56 : 0.24) : (high ? 0.64 : 0.36);
-    }
-    WeirScene *scene = pool_scene();
-    weir_scene_set_numbers(scene, "bodies[0].mesh.vertices", corners, 24);
-    weir_scene_set_numbers(scene, "bodies[0].mesh.triangles", triangles, 36);
-    weir_scene_set_number(scene, "bodies[0].density", 500);
-    WeirSim *sims[2] = {pool(true), weir_test_sim(scene, NULL, 1)};
-    weir_scene_destroy(scene);
-    WeirView view = view_of(WEIR_FLUID_WATER);
-    WeirImage images[2];
-    for (int k = 0; k < 2; k++)
-        draw_body(*state, sims[k], &view, (const float[3]){0.5f, 0.18f, 0.5f}, &images[k]);
-    const uint8_t *seen = pixel_of(&images[1], &view, (const double[3]){0.5, 0.34, 0.5});
-    assert_true(seen[0] > seen[2] - 40); // warmer than any water
-    uint32_t other = 0;
-    for (uint32_t k = 0; k < SIZE * SIZE; k++)
-        other += difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 30;
-    if (other > 12) fail_msg("%u pixels differ", other);
-    for (int k = 0; k < 2; k++) {
-        weir_image_destroy(&images[k]);
-        weir_sim_destroy(sims[k]);
-    }
-}
-
-// Straight from above: which of eight directions show a brighter tone than those beside them, as bits.
-static uint32_t tones(const WeirImage *image, const WeirView *view, double radius, double height)
-{
-    double light[8];
-    for (int k = 0; k < 8; k++) {
-        double angle = (k + 0.5) * 3.14159265 / 4.0;
-        const double at[3] = {0.5 + radius * cos(angle), height, 0.5 + radius * sin(angle)};
-        const uint8_t *seen = height < surface_height
-                                  ? pixel_of(image, view, at)
-                                  : pixel_at(image, view, (float)at[0], (float)height, (float)at[2]);
-        light[k] = light_of(seen[1]);
-    }
-    uint32_t bits = 0;
-    for (int k = 0; k < 8; k++)
-        bits |= (uint32_t)(2.0 * light[k] > light[(k + 1) % 8] + light[(k + 7) % 8]) << k;
-    return bits;
-}
-
-static void wet_tones_are_the_dry_ones(void **state)
-{
-    for (int shape = 0; shape < 2; shape++) {
-        WeirScene *scene = pool_scene();
-        if (shape == 0) {
-            weir_scene_set_numbers(scene, "bodies[0].ball.center", (double[]){0.5, 0.7, 0.5}, 3);
-            weir_scene_set_number(scene, "bodies[0].ball.radius", 0.2);
-        } else {
-            weir_scene_set_numbers(scene, "bodies[0].cylinder.from", (double[]){0.5, 0.6, 0.5}, 3);
-            weir_scene_set_numbers(scene, "bodies[0].cylinder.to", (double[]){0.5, 0.8, 0.5}, 3);
-            weir_scene_set_number(scene, "bodies[0].cylinder.radius", 0.2);
-        }
-        weir_scene_set_number(scene, "bodies[0].density", 500);
-        WeirSim *sim = weir_test_sim(scene, NULL, 1);
-        weir_scene_destroy(scene);
-        WeirView view = view_of(WEIR_FLUID_WATER);
-        view.camera_pitch = 1.57f;
-        const double top = shape == 0 ? 0.173 : 0.1; // where its distance from the axis is 0.1
-        WeirImage dry, wet;
-        draw_body(*state, sim, &view, (const float[3]){0.5f, 0.7f, 0.5f}, &dry);
-        draw_body(*state, sim, &view, (const float[3]){0.5f, 0.18f, 0.5f}, &wet);
-        uint32_t one = tones(&dry, &view, 0.1, 0.7 + top), other = tones(&wet, &view, 0.1, 0.18 + top);
-        if (!(one == other && (one == 0x55 || one == 0xaa))) fail_msg("dry %x, wet %x", one, other);
-        weir_image_destroy(&dry);
-        weir_image_destroy(&wet);
-        weir_sim_destroy(sim);
-    }
-}
-
 static void styles_and_sizes_change(void **state)
 {
     WeirSim *sim = pool(false);
@@ -850,12 +480,6 @@ int main(void)
         cmocka_unit_test(a_sheet_that_moves_as_one_is_clear),
         cmocka_unit_test(waves_gather_light_on_the_floor),
         cmocka_unit_test(still_water_mirrors_the_horizon),
-        cmocka_unit_test(a_ball_under_water_is_where_snell_says),
-        cmocka_unit_test(deeper_is_bluer),
-        cmocka_unit_test(a_side_mirrors_a_ball),
-        cmocka_unit_test(a_body_half_in_water_is_one),
-        cmocka_unit_test(a_mesh_is_seen_as_what_it_is),
-        cmocka_unit_test(wet_tones_are_the_dry_ones),
         cmocka_unit_test(styles_and_sizes_change),
         cmocka_unit_test(unknown_styles_are_refused),
     };
