@@ -261,10 +261,21 @@ export class App implements PanelHost {
     return this.engine instanceof GpuEngine && !this.engine.gpu.isSoftware;
   }
 
+  get #timeScale(): number {
+    return this.store.scene.parameter('time_scale')[0] ?? 1;
+  }
+  // Of wcsph: of the wall's time, at the wanted speed; 0: not known.
+  #timeStepMs(engine: Engine): number {
+    return (1000 * (engine.stats.clock?.timeStep ?? 0)) / this.#timeScale;
+  }
+
   // As many pixels as the graphics card has time for; whether the fluid keeps real time is seen after that.
   #keepSharp(now: number, engine: Engine): void {
-    const drawMs = this.#isCard() && !document.hidden ? engine.stats.drawMs : 0;
-    if (!this.#sharpness.update(now, drawMs, this.#interval, this.#display.ratio)) return;
+    const { drawMs, frameSteps, stepMs } = engine.stats;
+    const timeStep = this.#timeStepMs(engine);
+    const steps = timeStep > 0 ? this.#interval / timeStep : frameSteps; // that real time asks for
+    const load = { drawMs: this.#isCard() && !document.hidden ? drawMs : 0, stepsMs: steps * stepMs };
+    if (!this.#sharpness.update(now, load, this.#interval, this.#display.ratio)) return;
     this.#setSize();
     this.#rate.restart(now);
   }
@@ -276,10 +287,8 @@ export class App implements PanelHost {
     if (this.paused || document.hidden) this.#rate.restart(now);
     const factor = this.#rate.update(now, engine.stats.time);
     if (factor === null || this.#asked || scene.method !== 'wcsph' || !this.#isCard()) return;
-    const timeScale = scene.parameter('time_scale')[0] ?? 1;
-    const aimed = factor / timeScale;
-    const timeStep = (1000 * (engine.stats.clock?.timeStep ?? 0)) / timeScale;
-    if (isSlowMotion(aimed) && stepsFit(timeStep, engine.stats.stepMs, this.#interval)) {
+    const aimed = factor / this.#timeScale;
+    if (isSlowMotion(aimed) && stepsFit(this.#timeStepMs(engine), engine.stats.stepMs, this.#interval)) {
       this.#drawPlainly(now, engine, aimed);
       return;
     }

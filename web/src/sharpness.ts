@@ -1,17 +1,21 @@
-// How many pixels the picture has: the display's, or fewer where a graphics card would need most of each frame to draw them
-// all, as small ones do on dense displays. Whether fewer help is seen by trying.
+// How many pixels the picture has: the display's, or fewer where a graphics card has no time to draw them all beside the
+// fluid's steps, as small ones on dense displays. Whether fewer help is seen by trying.
 
 const shares = [1, 0.8, 0.64, 0.5, 0.4, 0.32]; // of the display's pixels, along each side
 const leastRatio = 0.62; // pixels per CSS pixel
-const settleMs = 1200; // until the mean of what frames take is that of the new picture
-const tooMuch = 0.6; // of a frame, for drawing
-const enough = 0.45; // that a sharper picture may take
+const settleMs = 1200; // until means are those of the new picture
+const usable = 0.95; // of a frame
+const leastRoom = 0.45; // of a frame, for drawing: steps take what is left of it
+const spare = 0.8; // of that room, which a sharper picture must fit
 const fastestFrameMs = 15; // more than 60 frames per second are not worth a blur
+
+export type Load = { drawMs: number; stepsMs: number }; // of a frame, on the device; drawMs 0: not known
 
 export class Sharpness {
   #level = 0;
   #lowest = shares.length - 1; // that was of use
   #since = 0; // when the level changed
+  #stepsMs = 0; // averaged
   #before = { level: 0, drawMs: 0 };
 
   // Of the display's pixels, along each side.
@@ -27,18 +31,19 @@ export class Sharpness {
     this.#before = { level: this.#level, drawMs: 0 };
   }
 
-  // Once per frame, with what a frame takes besides its steps and the display's pixels per CSS pixel. True if the share has
-  // changed.
-  update(now: number, drawMs: number, intervalMs: number, ratio: number): boolean {
+  // Once per frame; `ratio`: the display's pixels per CSS pixel. True if the share has changed.
+  update(now: number, { drawMs, stepsMs }: Load, intervalMs: number, ratio: number): boolean {
+    this.#stepsMs += 0.03 * (stepsMs - this.#stepsMs);
     if (!(drawMs > 0)) this.#since = now;
     if (now - this.#since < settleMs) return false;
     const frameMs = Math.max(intervalMs, fastestFrameMs);
+    const room = Math.max(usable * frameMs - this.#stepsMs, leastRoom * frameMs);
     let level = this.#level;
     if (this.#wasOfNoUse(drawMs)) {
       level = this.#lowest = this.#before.level;
-    } else if (drawMs > tooMuch * frameMs) {
-      while (level < this.#lowest && this.#expected(drawMs, level) > enough * frameMs && this.#isFine(level + 1, ratio)) level++;
-    } else if (level > 0 && this.#expected(drawMs, level - 1) < enough * frameMs) {
+    } else if (drawMs > room) {
+      while (level < this.#lowest && this.#expected(drawMs, level) > room && this.#isFine(level + 1, ratio)) level++;
+    } else if (level > 0 && this.#expected(drawMs, level - 1) < spare * room) {
       level--;
     }
     this.#before = { level: this.#level, drawMs };

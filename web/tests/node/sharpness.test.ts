@@ -1,12 +1,12 @@
-// The picture's sharpness on cards that are made up: what a frame takes besides its steps is something fixed and something per
-// pixel.
+// The picture's sharpness on cards that are made up: drawing takes something fixed and something per pixel, and steps take their
+// part.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Sharpness } from '../../src/sharpness.ts';
 
 const interval = 1000 / 60;
 
-type Card = { fixedMs: number; pixelsMs: number }; // of all the display's pixels
+type Card = { fixedMs: number; pixelsMs: number; stepsMs?: number }; // of all the display's pixels
 
 // Seconds of frames; returns the shares that it went through.
 function run(sharpness: Sharpness, card: (second: number) => Card, seconds: number, ratio = 2, intervalMs = interval): number[] {
@@ -14,25 +14,29 @@ function run(sharpness: Sharpness, card: (second: number) => Card, seconds: numb
   let mean = 0;
   sharpness.restart(0, true);
   for (let now = 0; now < 1000 * seconds; now += interval) {
-    const { fixedMs, pixelsMs } = card(now / 1000);
+    const { fixedMs, pixelsMs, stepsMs = 6 } = card(now / 1000);
     const drawMs = fixedMs + pixelsMs * sharpness.share ** 2;
     mean = mean > 0 ? mean + 0.05 * (drawMs - mean) : drawMs;
-    if (sharpness.update(now, mean, intervalMs, ratio)) seen.push(sharpness.share);
+    if (sharpness.update(now, { drawMs: mean, stepsMs }, intervalMs, ratio)) seen.push(sharpness.share);
   }
   return seen;
 }
 
 test('a card with time to spare draws every pixel', () => {
-  assert.deepEqual(run(new Sharpness(), () => ({ fixedMs: 1, pixelsMs: 8 }), 20), [1]);
+  assert.deepEqual(run(new Sharpness(), () => ({ fixedMs: 1, pixelsMs: 7 }), 20), [1]);
+  assert.deepEqual(run(new Sharpness(), () => ({ fixedMs: 1, pixelsMs: 12, stepsMs: 2 }), 20), [1]);
 });
 
 test('a small card on a dense display draws as many pixels as it has time for', () => {
   for (const pixelsMs of [12, 20, 40, 80]) {
-    const sharpness = new Sharpness();
-    const seen = run(sharpness, () => ({ fixedMs: 1, pixelsMs }), 30);
-    assert.ok(seen.length <= 3, `${pixelsMs} ms: ${seen}`);
-    const drawMs = 1 + pixelsMs * sharpness.share ** 2;
-    assert.ok(drawMs < 0.6 * interval || sharpness.share < 0.35, `${pixelsMs} ms: ${sharpness.share}`);
+    for (const stepsMs of [1, 6, 14, 40]) {
+      const sharpness = new Sharpness();
+      const seen = run(sharpness, () => ({ fixedMs: 1, pixelsMs, stepsMs }), 30);
+      assert.ok(seen.length <= 3, `${pixelsMs} ms: ${seen}`);
+      const drawMs = 1 + pixelsMs * sharpness.share ** 2;
+      const room = Math.max(0.95 * interval - stepsMs, 0.45 * interval);
+      assert.ok(drawMs < 1.02 * room || sharpness.share < 0.35, `${pixelsMs} and ${stepsMs} ms: ${sharpness.share}`);
+    }
   }
 });
 
@@ -67,12 +71,12 @@ test('another picture begins as sharp as the last one; without a card every pixe
 });
 
 test('displays with more frames do not make it blur', () => {
-  assert.deepEqual(run(new Sharpness(), () => ({ fixedMs: 2, pixelsMs: 6 }), 20, 2, 1000 / 144), [1]);
+  assert.deepEqual(run(new Sharpness(), () => ({ fixedMs: 2, pixelsMs: 5 }), 20, 2, 1000 / 144), [1]);
 });
 
 test('nothing changes while nothing is known', () => {
   const sharpness = new Sharpness();
   sharpness.restart(0, true);
-  for (let now = 0; now < 10000; now += interval) assert.equal(sharpness.update(now, 0, interval, 2), false);
-  assert.equal(sharpness.update(10500, 100, interval, 2), false);
+  for (let now = 0; now < 10000; now += interval) assert.equal(sharpness.update(now, { drawMs: 0, stepsMs: 9 }, interval, 2), false);
+  assert.equal(sharpness.update(10500, { drawMs: 100, stepsMs: 9 }, interval, 2), false);
 });
