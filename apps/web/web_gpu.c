@@ -107,6 +107,12 @@ static WeirView read_view(const float v[WEIR_WEB_VIEW])
     };
 }
 
+WEIR_WEB(weir_web_renderer_prepare)
+WeirStatus weir_web_renderer_prepare(WeirWebRenderer *web, const WeirScene *scene, WeirFluidStyle style)
+{
+    return weir_renderer_prepare(web->renderer, scene, style);
+}
+
 WEIR_WEB(weir_web_renderer_draw_time)
 double weir_web_renderer_draw_time(const WeirWebRenderer *web)
 {

@@ -58,9 +58,12 @@ void weir_view_ray(const WeirView *view, uint32_t width, uint32_t height, float 
 typedef enum WeirLook { WEIR_LOOK_HIDDEN, WEIR_LOOK_WALL, WEIR_LOOK_BODY } WeirLook;
 WeirLook weir_scene_look(const WeirScene *scene, uint32_t solid);
 
-// Makes the pipelines for a colour target of `format`, a WGPUTextureFormat. NULL only if memory runs out; faults
-// of the shaders show in weir_gpu_poll().
+// For a colour target of `format`, a WGPUTextureFormat. NULL only if memory runs out.
 WeirRenderer *weir_renderer_create(WeirGpu *gpu, uint32_t format);
+// Makes the pipelines that pictures of such scenes need, which their first picture does otherwise: to be called when a simulation
+// is made, a browser then compiles both at the same time. Faults of shaders show in weir_gpu_poll(). WEIR_ERROR_INPUT for an
+// unknown style.
+WeirStatus weir_renderer_prepare(WeirRenderer *renderer, const WeirScene *scene, WeirFluidStyle style);
 void weir_renderer_destroy(WeirRenderer *renderer); // NULL is allowed
 // Queues one frame into `target`, a WGPUTextureView of width x height pixels. WEIR_ERROR_INPUT if `sim` does not
 // run on the renderer's device.

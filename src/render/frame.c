@@ -48,6 +48,12 @@ static WeirStatus check_camera(const WeirView *view, WeirMessage *message)
     return check_numbers(checks, sizeof checks / sizeof *checks, message);
 }
 
+WeirStatus weir_frame_check_style(WeirFluidStyle style, WeirMessage *message)
+{
+    if ((uint32_t)style <= WEIR_FLUID_WATER) return WEIR_OK;
+    return weir_fail(message, WEIR_ERROR_INPUT, "fluid_style is %u; allowed are 0 and 1.", (unsigned)style);
+}
+
 WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,
                             uint32_t height, WeirMessage *message)
 {
@@ -60,10 +66,8 @@ WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void
         return weir_fail(message, WEIR_ERROR_INPUT, "color_by is %u; allowed are 0 to %d.",
                          (unsigned)view->color_by, WEIR_COLOR_MAPS - 1);
     }
-    if ((uint32_t)view->fluid_style > WEIR_FLUID_WATER) {
-        return weir_fail(message, WEIR_ERROR_INPUT, "fluid_style is %u; allowed are 0 and 1.",
-                         (unsigned)view->fluid_style);
-    }
+    WeirStatus status = weir_frame_check_style(view->fluid_style, message);
+    if (status != WEIR_OK) return status;
     const Check shared[] = {
         {"color_min", view->color_min, false},
         {"color_max", view->color_max, false},
@@ -74,7 +78,7 @@ WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void
         {"tool_radius", view->tool_radius, false},
         {"tool_pressed", view->tool_pressed, false},
     };
-    WeirStatus status = check_numbers(shared, sizeof shared / sizeof *shared, message);
+    status = check_numbers(shared, sizeof shared / sizeof *shared, message);
     if (status != WEIR_OK) return status;
     if (dimension == 3) return check_camera(view, message);
     const Check flat[] = {

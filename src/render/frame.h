@@ -50,7 +50,8 @@ _Static_assert(sizeof(WeirFrame) == 384, "frame.wgsl: size, a multiple of 16");
 
 // Number of the solids before the scene's own walls: the domain's sides are one, if any is a wall.
 uint32_t weir_scene_first_wall(const WeirScene *scene);
-// Refuses what cannot be drawn and says why.
+// Refuse what cannot be drawn and say why.
+WeirStatus weir_frame_check_style(WeirFluidStyle style, WeirMessage *message);
 WeirStatus weir_frame_check(const WeirView *view, uint32_t dimension, const void *target, uint32_t width,
                             uint32_t height, WeirMessage *message);
 void weir_frame_fill(WeirFrame *frame, const WeirSim *sim, const WeirView *view, uint32_t width,

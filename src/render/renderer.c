@@ -1,5 +1,6 @@
 // The renderer: pipelines made once, one uniform write and one submit per frame, nothing allocated per frame.
 #include "render/renderer.h"
+#include "core/scene.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -166,6 +167,14 @@ void weir_renderer_destroy(WeirRenderer *renderer)
 const char *weir_renderer_error(const WeirRenderer *renderer)
 {
     return renderer->message.text;
+}
+
+WeirStatus weir_renderer_prepare(WeirRenderer *renderer, const WeirScene *scene, WeirFluidStyle style)
+{
+    WeirStatus status = weir_frame_check_style(style, &renderer->message);
+    if (status == WEIR_OK) status = prepare(renderer);
+    if (status != WEIR_OK) return status;
+    return prepare_pipelines(renderer, scene->method, scene->dimension, style == WEIR_FLUID_WATER);
 }
 
 double weir_renderer_draw_time(const WeirRenderer *renderer)

@@ -457,12 +457,40 @@ static void styles_and_sizes_change(void **state)
 
 static void unknown_styles_are_refused(void **state)
 {
-    (void)state;
     WeirView view = view_of((WeirFluidStyle)2);
     WeirMessage message = {0};
     int target = 0;
     assert_int_equal(weir_frame_check(&view, 3, &target, 8, 8, &message), WEIR_ERROR_INPUT);
     CHECK_CONTAINS(message.text, "fluid_style is 2");
+    WeirRenderer *renderer = weir_renderer_create(*state, WGPUTextureFormat_RGBA8Unorm);
+    WeirScene *scene = weir_scene_create();
+    assert_int_equal(weir_renderer_prepare(renderer, scene, (WeirFluidStyle)2), WEIR_ERROR_INPUT);
+    CHECK_CONTAINS(weir_renderer_error(renderer), "fluid_style is 2");
+    weir_scene_destroy(scene);
+    weir_renderer_destroy(renderer);
+}
+
+// All pipelines that the first picture needs, and it makes no others.
+static void pipelines_come_before_the_picture(void **state)
+{
+    WeirSim *sim = pool(false);
+    WeirRenderer *renderer = weir_renderer_create(*state, WGPUTextureFormat_RGBA8Unorm);
+    assert_int_equal(weir_renderer_prepare(renderer, weir_sim_scene(sim), WEIR_FLUID_WATER), WEIR_OK);
+    WGPURenderPipeline made[WEIR_EFFECTS];
+    memcpy(made, renderer->pipelines[WEIR_METHOD_WCSPH], sizeof made);
+    for (int kind = WEIR_EFFECT_SHADOW; kind < WEIR_EFFECTS; kind++) assert_non_null(made[kind]);
+    WeirGpuParticles particles;
+    WeirImage image;
+    WeirView view = view_of(WEIR_FLUID_WATER);
+    assert_true(weir_upload(*state, sim, &particles));
+    assert_true(weir_image_create(&image, *state, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
+    assert_int_equal(weir_renderer_draw_particles(renderer, sim, &particles, &view, image.view, SIZE, SIZE),
+                     WEIR_OK);
+    assert_memory_equal(made, renderer->pipelines[WEIR_METHOD_WCSPH], sizeof made);
+    weir_image_destroy(&image);
+    weir_upload_release(&particles);
+    weir_renderer_destroy(renderer);
+    weir_sim_destroy(sim);
 }
 
 int main(void)
@@ -482,6 +510,7 @@ int main(void)
         cmocka_unit_test(still_water_mirrors_the_horizon),
         cmocka_unit_test(styles_and_sizes_change),
         cmocka_unit_test(unknown_styles_are_refused),
+        cmocka_unit_test(pipelines_come_before_the_picture),
     };
     return cmocka_run_group_tests_name("render: water in 3D", tests, start, end);
 }

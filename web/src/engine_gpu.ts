@@ -7,7 +7,7 @@ import type { PickSource } from './pick.ts';
 import { Pace } from './pace.ts';
 import { ProbeReader, ProbeSeries } from './probes.ts';
 import { canResume, type SceneDocument } from './scene_document.ts';
-import { Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
+import { FluidStyle, Status, WeirError, type Gpu, type Renderer, type Scene, type Sim, type View, type Weir } from './weir.ts';
 
 const framesInFlight = 2;
 const longestFrameMs = 51; // three of a display with 60 per second
@@ -162,6 +162,7 @@ export class GpuEngine implements Engine {
     let sim: Sim | null = null;
     try {
       sim = this.#weir.createSim(scene, { gpu: this.gpu, maxSteps: this.#pace.maxSteps });
+      if (!this.gpu.isSoftware) this.#renderer.prepare(scene, FluidStyle.water); // as most cards draw it
       await sim.ready();
       this.#noteScene(scene);
       return sim;

@@ -741,6 +741,11 @@ export class Renderer {
     this.#view = context.memory.allocate(4 * VIEW_FLOATS);
   }
 
+  // Makes what pictures of such scenes need, which their first one does otherwise: a browser compiles it beside a simulation's passes.
+  prepare(scene: Scene, style: FluidStyle): Status {
+    return this.#context.c.weir_web_renderer_prepare(this.#pointer, scene.pointer, style);
+  }
+
   // Queues one frame at canvas.width x canvas.height, in device pixels.
   draw(sim: Sim, view: View): Status {
     const { memory, c } = this.#context;

@@ -30,7 +30,7 @@ type Name =
   | 'weir_sim_step' | 'weir_sim_time' | 'weir_sim_warning' | 'weir_web_allocate' | 'weir_web_color_map'
   | 'weir_web_free' | 'weir_web_gpu_create' | 'weir_web_gpu_memory' | 'weir_web_parameter'
   | 'weir_web_renderer_create' | 'weir_web_renderer_destroy' | 'weir_web_renderer_draw'
-  | 'weir_web_renderer_draw_time' | 'weir_web_scene_domain' | 'weir_web_scene_fluid_count' | 'weir_web_sim_clock' | 'weir_web_view_matrix' | 'weir_web_view_ray'
+  | 'weir_web_renderer_draw_time' | 'weir_web_renderer_prepare' | 'weir_web_scene_domain' | 'weir_web_scene_fluid_count' | 'weir_web_sim_clock' | 'weir_web_view_matrix' | 'weir_web_view_ray'
   | 'weir_case_count' | 'weir_web_case_text' | 'weir_validation_create' | 'weir_validation_destroy'
   | 'weir_validation_error' | 'weir_validation_run_count' | 'weir_validation_prepare' | 'weir_validation_begin'
   | 'weir_validation_advance' | 'weir_validation_run_is_done' | 'weir_validation_abandon'
