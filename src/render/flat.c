@@ -127,10 +127,12 @@ void weir_flat_draw(WeirRenderer *renderer, const WeirDrawing *drawing)
         draw_pass(renderer, drawing, renderer->flat.views[k], 0.0, kind, kind,
                   k == 0 ? drawing->begins : NULL);
     }
-    WGPUPassTimestampWrites both;
-    if (drawing->ends) both = *drawing->ends;
-    if (drawing->ends && !drawing->water)
+    const WGPUPassTimestampWrites *ends = drawing->ends;
+    WGPUPassTimestampWrites both; // of a picture of one pass
+    if (ends && !drawing->water) {
+        both = *ends;
         both.beginningOfPassWriteIndex = drawing->begins->beginningOfPassWriteIndex;
-    draw_pass(renderer, drawing, drawing->target, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY,
-              drawing->ends ? &both : NULL);
+        ends = &both;
+    }
+    draw_pass(renderer, drawing, drawing->target, 1.0, WEIR_EFFECT_BACKGROUND, WEIR_EFFECT_OVERLAY, ends);
 }
