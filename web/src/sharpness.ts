@@ -2,7 +2,7 @@
 // fluid's steps, as small ones on dense displays. Whether fewer help is seen by trying.
 
 const shares = [1, 0.8, 0.64, 0.5, 0.4, 0.32]; // of the display's pixels, along each side
-const leastRatio = 0.62; // pixels per CSS pixel
+const leastRatio = 0.78; // pixels per CSS pixel
 const settleMs = 1200; // until means are those of the new picture
 const usable = 0.95; // of a frame
 const leastRoom = 0.45; // of a frame, for drawing: steps take what is left of it
