@@ -48,20 +48,6 @@ WeirView view_of(WeirFluidStyle style)
                       .fluid_style = style};
 }
 
-void draw_particles(WeirGpu *gpu, WeirSim *sim, const WeirGpuParticles *particles, const WeirView *view,
-                    uint32_t effects, WeirImage *image)
-{
-    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
-    assert_non_null(renderer);
-    renderer->effects = effects;
-    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
-    if (weir_renderer_draw_particles(renderer, sim, particles, view, image->view, SIZE, SIZE) != WEIR_OK)
-        fail_msg("%s", weir_renderer_error(renderer));
-    assert_true(weir_image_read(image));
-    weir_renderer_destroy(renderer);
-    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
-}
-
 const uint8_t *pixel_at(const WeirImage *image, const WeirView *view, float x, float y, float z)
 {
     float matrix[16], clip[4], point[4] = {x, y, z, 1.0f};
@@ -74,11 +60,6 @@ const uint8_t *pixel_at(const WeirImage *image, const WeirView *view, float x, f
     uint32_t row = (uint32_t)((1.0f - clip[1] / clip[3]) * SIZE / 2);
     assert_true(column < SIZE && row < SIZE);
     return image->pixels + 4 * ((size_t)row * SIZE + column);
-}
-
-int difference(const uint8_t *a, const uint8_t *b)
-{
-    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
 }
 
 void upload_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, WeirGpuParticles *particles)
@@ -106,7 +87,7 @@ void draw_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, const WeirVi
 {
     WeirGpuParticles particles;
     upload_waves(gpu, sim, waves, none, &particles);
-    draw_particles(gpu, sim, &particles, view, effects, image);
+    weir_test_picture(gpu, sim, &particles, view, effects, SIZE, image);
     weir_upload_release(&particles);
 }
 

@@ -1,12 +1,9 @@
 // A tank of water in 3D that tests draw off-screen and judge by its pixels.
 #pragma once
 
-#include "image.h"
-#include "render/renderer.h"
+#include "picture.h"
 
 enum { SIZE = 160 }; // of the pictures
-
-static const uint32_t all = (1u << WEIR_EFFECTS) - 1;
 
 // A tank of 1 m, four tenths full.
 WeirScene *pool_scene(void);
@@ -16,11 +13,8 @@ WeirSim *pool_of(WeirScene *scene, bool with_body);
 WeirSim *pool(bool with_body);
 // From +z and above.
 WeirView view_of(WeirFluidStyle style);
-void draw_particles(WeirGpu *gpu, WeirSim *sim, const WeirGpuParticles *particles, const WeirView *view,
-                    uint32_t effects, WeirImage *image);
 // The pixel that shows a point of the tank.
 const uint8_t *pixel_at(const WeirImage *image, const WeirView *view, float x, float y, float z);
-int difference(const uint8_t *a, const uint8_t *b);
 // A pool of a lattice of particles, 1 m long and wide and 0.4 m deep with waves of that share of its depth; none: no water.
 void upload_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, WeirGpuParticles *particles);
 void draw_waves(WeirGpu *gpu, WeirSim *sim, float waves, bool none, const WeirView *view, uint32_t effects,

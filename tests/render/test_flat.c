@@ -7,7 +7,7 @@
 
 #include "adapter.h"
 #include "common/build.h"
-#include "image.h"
+#include "picture.h"
 #include "render/flat_shape.h"
 #include "render/renderer.h"
 #include "styles.h"
@@ -75,27 +75,11 @@ static WeirView view_of(WeirFluidStyle style)
                       .fluid_style = style};
 }
 
-static const uint32_t all = (1u << WEIR_EFFECTS) - 1;
-
-static void draw_particles(WeirGpu *gpu, const WeirSim *sim, const WeirGpuParticles *particles,
-                           const WeirView *view, uint32_t effects, WeirImage *image)
-{
-    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
-    assert_non_null(renderer);
-    renderer->effects = effects;
-    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
-    if (weir_renderer_draw_particles(renderer, sim, particles, view, image->view, SIZE, SIZE) != WEIR_OK)
-        fail_msg("%s", weir_renderer_error(renderer));
-    assert_true(weir_image_read(image));
-    weir_renderer_destroy(renderer);
-    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
-}
-
 static void draw(WeirGpu *gpu, WeirSim *sim, const WeirView *view, uint32_t effects, WeirImage *image)
 {
     WeirGpuParticles particles;
     assert_true(weir_upload(gpu, sim, &particles));
-    draw_particles(gpu, sim, &particles, view, effects, image);
+    weir_test_picture(gpu, sim, &particles, view, effects, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -114,7 +98,7 @@ static void draw_turned(WeirGpu *gpu, WeirSim *sim, uint32_t solid, float angle,
     solids[solid].orientation[3] = cosf(0.5f * angle);
     wgpuBufferRelease(particles.solids);
     assert_true(weir_upload_solids(&particles, solids, particles.solid_count));
-    draw_particles(gpu, sim, &particles, &view, all, image);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -125,11 +109,6 @@ static const uint8_t *pixel_at(const WeirImage *image, float x, float y)
     uint32_t row = (uint32_t)(0.5f * SIZE - (y - 0.5f) * scale);
     assert_true(column < SIZE && row < SIZE);
     return image->pixels + 4 * ((size_t)row * SIZE + column);
-}
-
-static int difference(const uint8_t *a, const uint8_t *b)
-{
-    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
 }
 
 static bool is_wall(const uint8_t *pixel)
@@ -156,7 +135,7 @@ static void a_wall_is_filled_to_its_edges(void **state)
     WeirSim *sim = started(scene);
     WeirView view = view_of(WEIR_FLUID_PARTICLES);
     WeirImage image;
-    draw(*state, sim, &view, all, &image);
+    draw(*state, sim, &view, WEIR_ALL_EFFECTS, &image);
     const float pixel = 1.0f / scale;
     for (int k = 0; k <= 10; k++) {
         float along = 0.3f + 3 * pixel + (0.4f - 6 * pixel) * 0.1f * (float)k;
@@ -232,7 +211,7 @@ static void walls_around_the_fluid_are_bands(void **state)
     WeirSim *sim = started(scene);
     WeirView view = view_of(WEIR_FLUID_PARTICLES);
     WeirImage image;
-    draw(*state, sim, &view, all, &image);
+    draw(*state, sim, &view, WEIR_ALL_EFFECTS, &image);
     const float pixel = 1.0f / scale;
     float band = 0.02f * ceilf(weir_sim_parameters(sim)->support_radius / 0.02f - 1e-3f);
     assert_true(is_dark(pixel_at(&image, 0.5f, 0.6f)) && is_fluid(pixel_at(&image, 0.5f, 0.35f)));
@@ -265,7 +244,7 @@ static void too_many_edges_stay_particles(void **state)
     WeirSim *sim = started(scene);
     WeirView view = view_of(WEIR_FLUID_WATER);
     WeirImage image;
-    draw(*state, sim, &view, all, &image);
+    draw(*state, sim, &view, WEIR_ALL_EFFECTS, &image);
     const uint8_t *middle = pixel_at(&image, 0.5f, 0.7f);
     assert_true(middle[0] > middle[2] + 50);
     weir_image_destroy(&image);
@@ -303,9 +282,9 @@ static void water_fills_its_pool(void **state)
     WeirImage all_of_it, image, plain, particles;
     draw(*state, sim, &view, fluid_only, &image);
     draw(*state, sim, &view, 1u << WEIR_EFFECT_BACKGROUND, &plain);
-    draw(*state, sim, &view, all, &all_of_it);
+    draw(*state, sim, &view, WEIR_ALL_EFFECTS, &all_of_it);
     view.fluid_style = WEIR_FLUID_PARTICLES;
-    draw(*state, sim, &view, all, &particles);
+    draw(*state, sim, &view, WEIR_ALL_EFFECTS, &particles);
     for (float x = 0.02f; x < 0.99f; x += 0.02f) { // beside the bodies
         for (float y = 0.02f; y < 0.38f; y += 0.02f) {
             bool solid = x > 0.33f && x < 0.67f && y > 0.08f && y < 0.32f;
@@ -336,8 +315,8 @@ static void water_ends_at_walls_and_surface(void **state)
         bool uploaded =
             k == 0 ? weir_upload(*state, sims[0], &particles) : weir_gpu_particles(sims[1], &particles);
         assert_true(uploaded);
-        draw_particles(*state, sims[k], &particles, &view, fluid_only, &image);
-        draw_particles(*state, sims[k], &particles, &view, 1u << WEIR_EFFECT_BACKGROUND, &plain);
+        weir_test_picture(*state, sims[k], &particles, &view, fluid_only, SIZE, &image);
+        weir_test_picture(*state, sims[k], &particles, &view, 1u << WEIR_EFFECT_BACKGROUND, SIZE, &plain);
         check_covered(&image, &plain);
         if (k == 0) weir_upload_release(&particles);
         weir_image_destroy(&image);
@@ -362,7 +341,7 @@ static void draw_spots(WeirGpu *gpu, const WeirSim *sim, const WeirView *view, c
     }
     WeirGpuParticles particles;
     assert_true(weir_upload_arrays(gpu, coordinate, motion, count, &particles));
-    draw_particles(gpu, sim, &particles, view, fluid_only, image);
+    weir_test_picture(gpu, sim, &particles, view, fluid_only, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -429,8 +408,8 @@ static void water_goes_on_across_a_periodic_side(void **state)
     draw(*state, sim, &view, fluid_only, &image);
     for (float y = 0.05f; y < 0.3f; y += 0.05f) {
         const uint8_t *middle = pixel_at(&image, 0.5f, y);
-        assert_true(difference(pixel_at(&image, 1.5f / scale, y), middle) < 12);
-        assert_true(difference(pixel_at(&image, 1.0f - 1.5f / scale, y), middle) < 12);
+        assert_true(weir_test_difference(pixel_at(&image, 1.5f / scale, y), middle) < 12);
+        assert_true(weir_test_difference(pixel_at(&image, 1.0f - 1.5f / scale, y), middle) < 12);
     }
     weir_image_destroy(&image);
     weir_sim_destroy(sim);

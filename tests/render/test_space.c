@@ -5,7 +5,7 @@
 
 #include "adapter.h"
 #include "common/build.h"
-#include "image.h"
+#include "picture.h"
 #include "render/renderer.h"
 #include "upload.h"
 
@@ -75,31 +75,11 @@ static WeirView front_view(void)
                       .camera_field_of_view = 0.6f};
 }
 
-static void draw(WeirGpu *gpu, WeirSim *sim, const WeirGpuParticles *particles, const WeirView *view,
-                 uint32_t effects, WeirImage *image)
-{
-    WeirRenderer *renderer = weir_renderer_create(gpu, WGPUTextureFormat_RGBA8Unorm);
-    assert_non_null(renderer);
-    renderer->effects = effects;
-    assert_true(weir_image_create(image, gpu, WGPUTextureFormat_RGBA8Unorm, SIZE, SIZE));
-    WeirStatus status = weir_renderer_draw_particles(renderer, sim, particles, view, image->view, SIZE, SIZE);
-    if (status != WEIR_OK) fail_msg("%s", weir_renderer_error(renderer));
-    assert_true(weir_image_read(image));
-    weir_renderer_destroy(renderer);
-    if (weir_gpu_poll(gpu) != WEIR_OK) fail_msg("%s", weir_gpu_error(gpu));
-}
-
 static const uint8_t *pixel(const WeirImage *image, uint32_t x, uint32_t y)
 {
     return image->pixels + 4 * ((size_t)y * SIZE + x);
 }
 
-static int difference(const uint8_t *a, const uint8_t *b)
-{
-    return abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]);
-}
-
-static const uint32_t all = (1u << WEIR_EFFECTS) - 1;
 static const uint8_t middle = SIZE / 2;
 
 // Two spheres behind one another, the near one slow (blue), the far one fast (white), in both orders.
@@ -113,7 +93,7 @@ static void nearer_sphere_hides_the_other(void **state)
     for (int order = 0; order < 2; order++) {
         const Dot turned[2] = {dots[order], dots[1 - order]};
         WeirGpuParticles particles = place(gpu, sim, turned, 2);
-        draw(gpu, sim, &particles, &view, all, &images[order]);
+        weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &images[order]);
         weir_upload_release(&particles);
     }
     const uint8_t *seen = pixel(&images[0], middle, middle);
@@ -121,7 +101,7 @@ static void nearer_sphere_hides_the_other(void **state)
     assert_memory_equal(images[0].pixels, images[1].pixels, (size_t)4 * SIZE * SIZE);
     view.camera_yaw = 3.14159265f;
     WeirGpuParticles particles = place(gpu, sim, dots, 2);
-    draw(gpu, sim, &particles, &view, all, &from_behind);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &from_behind);
     weir_upload_release(&particles);
     const uint8_t *white = pixel(&from_behind, middle, middle);
     assert_true(white[0] > 120 && abs(white[0] - white[2]) < 70);
@@ -140,7 +120,7 @@ static void spheres_cut_by_depth(void **state)
     view.particle_radius = 0.3f;
     WeirImage image;
     WeirGpuParticles particles = place(gpu, sim, dots, 2);
-    draw(gpu, sim, &particles, &view, all, &image);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &image);
     weir_upload_release(&particles);
     const uint8_t *left = pixel(&image, middle - 6, middle), *right = pixel(&image, middle + 6, middle);
     assert_true(left[2] > left[0] + 60);
@@ -159,16 +139,17 @@ static void sphere_has_its_size_in_perspective(void **state)
     view.particle_radius = 0.2f;
     WeirImage plain, image;
     WeirGpuParticles particles = place(gpu, sim, &dot, 1);
-    draw(gpu, sim, &particles, &view, 1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_COMPOSE, &plain);
-    draw(gpu, sim, &particles, &view,
-         1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_SPHERES | 1u << WEIR_EFFECT_COMPOSE |
-             1u << WEIR_EFFECT_SHADOW,
-         &image);
+    weir_test_picture(gpu, sim, &particles, &view, 1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_COMPOSE,
+                      SIZE, &plain);
+    weir_test_picture(gpu, sim, &particles, &view,
+                      1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_SPHERES | 1u << WEIR_EFFECT_COMPOSE |
+                          1u << WEIR_EFFECT_SHADOW,
+                      SIZE, &image);
     weir_upload_release(&particles);
     uint32_t covered = 0;
     for (uint32_t y = 0; y < SIZE; y++) {
         for (uint32_t x = 0; x < SIZE; x++)
-            covered += difference(pixel(&plain, x, y), pixel(&image, x, y)) > 60;
+            covered += weir_test_difference(pixel(&plain, x, y), pixel(&image, x, y)) > 60;
     }
     double tangent = 0.2 / sqrt(2.0 * 2.0 - 0.2 * 0.2);
     double radius = tangent / tan(0.3) * SIZE / 2;
@@ -195,13 +176,14 @@ static void groups_have_their_looks(void **state)
     WeirImage plain, image;
     const Dot fluid = {{0.5f, 0.5f, 0.5f}, 0, 0.0f};
     WeirGpuParticles particles = place(gpu, sim, &fluid, 1);
-    draw(gpu, sim, &particles, &view, 1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_COMPOSE, &plain);
+    weir_test_picture(gpu, sim, &particles, &view, 1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_COMPOSE,
+                      SIZE, &plain);
     weir_upload_release(&particles);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Dot dot = fluid;
         dot.group = cases[k].group;
         particles = place(gpu, sim, &dot, 1);
-        draw(gpu, sim, &particles, &view, spheres, &image);
+        weir_test_picture(gpu, sim, &particles, &view, spheres, SIZE, &image);
         weir_upload_release(&particles);
         const uint8_t *seen = pixel(&image, middle, middle);
         if (cases[k].look == BLUE) assert_true(seen[2] > seen[0] + 60);
@@ -227,8 +209,8 @@ static void shadow_falls_on_the_floor(void **state)
     view.particle_radius = 0.12f;
     const uint32_t floor_only =
         1u << WEIR_EFFECT_BACKDROP | 1u << WEIR_EFFECT_GROUND | 1u << WEIR_EFFECT_COMPOSE;
-    draw(gpu, sim, &particles, &view, floor_only, &lit);
-    draw(gpu, sim, &particles, &view, floor_only | 1u << WEIR_EFFECT_SHADOW, &shaded);
+    weir_test_picture(gpu, sim, &particles, &view, floor_only, SIZE, &lit);
+    weir_test_picture(gpu, sim, &particles, &view, floor_only | 1u << WEIR_EFFECT_SHADOW, SIZE, &shaded);
     weir_upload_release(&particles);
     // Where the light through the sphere meets the floor: 0.6 m below, along (0.35, -0.86, -0.37).
     const float foot[4] = {0.5f + 0.6f * 0.3496f / 0.8591f, 0.0f, 0.5f - 0.6f * 0.3737f / 0.8591f, 1.0f};
@@ -239,10 +221,10 @@ static void shadow_falls_on_the_floor(void **state)
     }
     uint32_t x = (uint32_t)((clip[0] / clip[3] + 1) * SIZE / 2),
              y = (uint32_t)((1 - clip[1] / clip[3]) * SIZE / 2);
-    assert_true(difference(pixel(&lit, x, y), pixel(&shaded, x, y)) > 12);
+    assert_true(weir_test_difference(pixel(&lit, x, y), pixel(&shaded, x, y)) > 12);
     uint32_t changed = 0;
     for (uint32_t k = 0; k < SIZE * SIZE; k++)
-        changed += difference(lit.pixels + 4 * k, shaded.pixels + 4 * k) > 6;
+        changed += weir_test_difference(lit.pixels + 4 * k, shaded.pixels + 4 * k) > 6;
     assert_true(changed > 20 && changed < SIZE * SIZE / 8);
     weir_image_destroy(&lit);
     weir_image_destroy(&shaded);
@@ -260,8 +242,9 @@ static void hollows_are_darker(void **state)
         {{0.36f, 0.5f, 0.5f}, 0, 1.0f}, {{0.64f, 0.5f, 0.5f}, 0, 1.0f}, {{0.5f, 0.5f, 0.3f}, 0, 1.0f}};
     WeirImage with, without;
     WeirGpuParticles particles = place(gpu, sim, dots, 3);
-    draw(gpu, sim, &particles, &view, all, &with);
-    draw(gpu, sim, &particles, &view, all & ~(1u << WEIR_EFFECT_OCCLUSION), &without);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &with);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS & ~(1u << WEIR_EFFECT_OCCLUSION), SIZE,
+                      &without);
     weir_upload_release(&particles);
     assert_true(pixel(&with, middle, middle)[1] + 8 < pixel(&without, middle, middle)[1]);
     uint32_t brighter = 0;

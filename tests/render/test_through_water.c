@@ -52,7 +52,7 @@ static void draw_body(WeirGpu *gpu, WeirSim *sim, const WeirView *view, const fl
     WeirSolidState solids[2] = {now.solids[0], now.solids[1]};
     memcpy(solids[1].position, position, 3 * sizeof *position);
     assert_true(weir_upload_solids(&particles, solids, 2));
-    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_test_picture(gpu, sim, &particles, view, WEIR_ALL_EFFECTS, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -111,7 +111,7 @@ static void a_ball_under_water_is_where_snell_says(void **state)
         WeirView view = view_of(WEIR_FLUID_WATER);
         view.camera_yaw = yaws[k];
         WeirImage plain, ball;
-        draw_waves(*state, without, 0.0f, false, &view, all, &plain);
+        draw_waves(*state, without, 0.0f, false, &view, WEIR_ALL_EFFECTS, &plain);
         const double at[3] = {0.5, 0.12, 0.45};
         draw_body(*state, with, &view, (const float[3]){0.5f, 0.12f, 0.45f}, &ball);
         double off[2];
@@ -121,8 +121,8 @@ static void a_ball_under_water_is_where_snell_says(void **state)
         ptrdiff_t shift = (pixel_of(&ball, &view, at) - straight) / 4 / SIZE;
         assert_true(labs(shift) >= 10); // rows: more than it is high
         const uint8_t *floor = plain.pixels + (straight - ball.pixels);
-        if (difference(straight, floor) > 24)
-            fail_msg("the floor differs by %d", difference(straight, floor));
+        if (weir_test_difference(straight, floor) > 24)
+            fail_msg("the floor differs by %d", weir_test_difference(straight, floor));
         weir_image_destroy(&plain);
         weir_image_destroy(&ball);
     }
@@ -159,7 +159,7 @@ static void a_side_mirrors_a_ball(void **state)
     WeirCameraAxes axes = weir_camera_axes(&view, SIZE, SIZE);
     assert_true(axes.eye[2] > 1.5f); // it looks to the side z = 0
     WeirImage plain, ball;
-    draw_waves(*state, without, 0.0f, false, &view, all, &plain);
+    draw_waves(*state, without, 0.0f, false, &view, WEIR_ALL_EFFECTS, &plain);
     draw_body(*state, with, &view, (const float[3]){0.5f, 0.18f, 0.08f}, &ball);
     for (int k = 0; k < 2; k++) {
         const double at[3] = {0.5, 0.18, k ? -0.08 : 0.08};
@@ -182,7 +182,7 @@ static void a_body_half_in_water_is_one(void **state)
     WeirView view = view_of(WEIR_FLUID_WATER);
     view.camera_pitch = 0.5f;
     WeirImage body, plain;
-    draw_waves(*state, without, 0.0f, false, &view, all, &plain);
+    draw_waves(*state, without, 0.0f, false, &view, WEIR_ALL_EFFECTS, &plain);
     draw_body(*state, with, &view, (const float[3]){0.5f, 0.40f, 0.5f}, &body);
     const uint8_t *top = pixel_at(&body, &view, 0.5f, 0.56f, 0.64f),
                   *bottom = pixel_of(&body, &view, (const double[3]){0.5, 0.24, 0.64});
@@ -222,7 +222,7 @@ static void a_mesh_is_seen_as_what_it_is(void **state)
     assert_true(seen[0] > seen[2] - 40); // warmer than any water
     uint32_t other = 0;
     for (uint32_t k = 0; k < SIZE * SIZE; k++)
-        other += difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 30;
+        other += weir_test_difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 30;
     if (other > 12) fail_msg("%u pixels differ", other);
     for (int k = 0; k < 2; k++) {
         weir_image_destroy(&images[k]);

@@ -25,7 +25,7 @@ static void draw(WeirGpu *gpu, WeirSim *sim, const WeirView *view, WeirImage *im
 {
     WeirGpuParticles particles;
     assert_true(weir_upload(gpu, sim, &particles));
-    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_test_picture(gpu, sim, &particles, view, WEIR_ALL_EFFECTS, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -41,7 +41,7 @@ static void draw_one(WeirGpu *gpu, WeirSim *sim, uint32_t group, const WeirView 
             (int32_t)lroundf((view->camera_target[k] - constants->origin[k]) / constants->quantum);
     WeirGpuParticles particles;
     assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
-    draw_particles(gpu, sim, &particles, view, effects, image);
+    weir_test_picture(gpu, sim, &particles, view, effects, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -54,7 +54,8 @@ static double unevenness(const WeirImage *image, const WeirView *view)
     for (int y = -10; y < 10; y++) {
         for (int x = -20; x < 20; x++) {
             const uint8_t *pixel = middle + 4 * (y * SIZE + x);
-            sum += difference(pixel, pixel + 4) + difference(pixel, pixel + (ptrdiff_t)4 * SIZE);
+            sum += weir_test_difference(pixel, pixel + 4) +
+                   weir_test_difference(pixel, pixel + (ptrdiff_t)4 * SIZE);
             count += 2;
         }
     }
@@ -100,7 +101,7 @@ static void who_is_buried_is_left_out_unseen(void **state)
         drawn /= draw_shown(renderer, sim, &particles, &view, true, &every);
         if (drawn < cases[k].least || drawn > cases[k].most) fail_msg("case %zu: %.3f are drawn", k, drawn);
         for (size_t p = 0; p < (size_t)SIZE * SIZE; p++) {
-            int off = difference(some.pixels + 4 * p, every.pixels + 4 * p);
+            int off = weir_test_difference(some.pixels + 4 * p, every.pixels + 4 * p);
             if (off > 12) fail_msg("case %zu, pixel %zu: off by %d", k, p, off);
         }
         weir_image_destroy(&some);
@@ -120,7 +121,7 @@ static void water_is_blue_and_even(void **state)
     draw(*state, sim, &spheres, &bumpy);
     const uint8_t *seen = pixel_at(&smooth, &water, 0.5f, 0.4f, 0.5f);
     assert_true(seen[2] > seen[0] + 30 && seen[1] > seen[0]); // blue-green
-    assert_true(difference(seen, pixel_at(&bumpy, &spheres, 0.5f, 0.4f, 0.5f)) > 20);
+    assert_true(weir_test_difference(seen, pixel_at(&bumpy, &spheres, 0.5f, 0.4f, 0.5f)) > 20);
     double even = unevenness(&smooth, &water), uneven = unevenness(&bumpy, &spheres);
     if (!(even < 6.0 && even < 0.12 * uneven)) fail_msg("water varies by %g, spheres by %g", even, uneven);
     weir_image_destroy(&smooth);
@@ -141,7 +142,8 @@ static void water_seen_flat_has_no_specks(void **state)
         for (int n = 0; n < 250; n++) {
             float x = 0.25f + 0.01f * (float)(n % 50), z = 0.3f + 0.1f * (float)(n / 50);
             const uint8_t *pixel = pixel_at(&image, &view, x, 0.4f, z);
-            worst = fmax(worst, fmin(difference(pixel, pixel - 4), difference(pixel, pixel + 4)));
+            worst = fmax(
+                worst, fmin(weir_test_difference(pixel, pixel - 4), weir_test_difference(pixel, pixel + 4)));
         }
         weir_image_destroy(&image);
     }
@@ -161,7 +163,7 @@ static void a_body_is_seen_in_and_above_the_water(void **state)
     const uint8_t *above = pixel_at(&body, &view, 0.5f, 0.52f, 0.64f);
     assert_true(above[0] > above[2] + 25); // warm
     const uint8_t *below = pixel_at(&body, &view, 0.5f, 0.30f, 0.64f);
-    assert_true(difference(below, pixel_at(&plain, &view, 0.5f, 0.30f, 0.64f)) > 25);
+    assert_true(weir_test_difference(below, pixel_at(&plain, &view, 0.5f, 0.30f, 0.64f)) > 25);
     assert_true(below[2] - below[0] > above[2] - above[0] + 25);
     weir_image_destroy(&body);
     weir_image_destroy(&plain);
@@ -179,8 +181,8 @@ static void what_stands_before_the_water_hides_it(void **state)
     draw(*state, sim, &spheres, &other);
     for (int k = 0; k < 5; k++) {
         float x = 0.42f + 0.04f * (float)k;
-        assert_true(difference(pixel_at(&one, &water, x, 0.58f, 0.5f),
-                               pixel_at(&other, &spheres, x, 0.58f, 0.5f)) < 24);
+        assert_true(weir_test_difference(pixel_at(&one, &water, x, 0.58f, 0.5f),
+                                         pixel_at(&other, &spheres, x, 0.58f, 0.5f)) < 24);
     }
     weir_image_destroy(&one);
     weir_image_destroy(&other);
@@ -201,7 +203,7 @@ static void draw_moved(WeirGpu *gpu, WeirSim *sim, const WeirView *view, const f
     solids[1].orientation[3] = sqrtf(1.0f - half_sine * half_sine);
     wgpuBufferRelease(particles.solids);
     assert_true(weir_upload_solids(&particles, solids, 2));
-    draw_particles(gpu, sim, &particles, view, all, image);
+    weir_test_picture(gpu, sim, &particles, view, WEIR_ALL_EFFECTS, SIZE, image);
     weir_upload_release(&particles);
 }
 
@@ -222,21 +224,23 @@ static void a_body_is_its_shape_at_its_pose(void **state)
         assert_true(face[0] > face[2] + 40); // warm
         for (int k = 0; k < 25; k++) {
             float x = 0.5f + 0.8f * half * (float)(k % 5 - 2) / 2.0f, y = 0.75f + 0.05f * (float)(k / 5 - 2);
-            assert_true(difference(face, pixel_at(&straight, &view, x, y, 0.64f)) < 15);
+            assert_true(weir_test_difference(face, pixel_at(&straight, &view, x, y, 0.64f)) < 15);
         }
         // Two pixels within and beyond the edge.
         const float pixel = 2.2f * 2.0f * 0.3093f / SIZE, y = 0.75f;
-        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half - 2 * pixel, y, 0.64f)) < 15);
-        assert_true(difference(face, pixel_at(&straight, &view, 0.5f + half + 2 * pixel, y, 0.64f)) > 90);
+        assert_true(
+            weir_test_difference(face, pixel_at(&straight, &view, 0.5f + half - 2 * pixel, y, 0.64f)) < 15);
+        assert_true(
+            weir_test_difference(face, pixel_at(&straight, &view, 0.5f + half + 2 * pixel, y, 0.64f)) > 90);
         // Turned, its edge looks at the eye, and it is as wide as its diagonal.
         const float wide = half * 1.41421356f;
-        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide + 3 * pixel, y, 0.5f),
-                               pixel_at(&away, &view, 0.5f - wide + 3 * pixel, y, 0.5f)) > 60);
-        assert_true(difference(pixel_at(&turned, &view, 0.5f - wide - 2 * pixel, y, 0.5f),
-                               pixel_at(&away, &view, 0.5f - wide - 2 * pixel, y, 0.5f)) < 15);
+        assert_true(weir_test_difference(pixel_at(&turned, &view, 0.5f - wide + 3 * pixel, y, 0.5f),
+                                         pixel_at(&away, &view, 0.5f - wide + 3 * pixel, y, 0.5f)) > 60);
+        assert_true(weir_test_difference(pixel_at(&turned, &view, 0.5f - wide - 2 * pixel, y, 0.5f),
+                                         pixel_at(&away, &view, 0.5f - wide - 2 * pixel, y, 0.5f)) < 15);
         const uint8_t *left = pixel_at(&turned, &view, 0.5f - half / 2, y, 0.5f),
                       *right = pixel_at(&turned, &view, 0.5f + half / 2, y, 0.5f);
-        assert_true(difference(left, right) > 15); // each face has its light
+        assert_true(weir_test_difference(left, right) > 15); // each face has its light
         weir_image_destroy(&straight);
         weir_image_destroy(&turned);
         weir_image_destroy(&away);
@@ -251,8 +255,8 @@ static void no_fluid_no_water(void **state)
     const uint32_t water = 1u << WEIR_EFFECT_HEIGHT | 1u << WEIR_EFFECT_SURFACE |
                            1u << WEIR_EFFECT_THICKNESS | 1u << WEIR_EFFECT_SMOOTH;
     WeirImage empty, scene;
-    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &empty);
-    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all & ~water, &scene);
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, WEIR_ALL_EFFECTS, &empty);
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, WEIR_ALL_EFFECTS & ~water, &scene);
     assert_memory_equal(empty.pixels, scene.pixels, (size_t)4 * SIZE * SIZE);
     weir_image_destroy(&empty);
     weir_image_destroy(&scene);
@@ -266,11 +270,11 @@ static void a_lonely_particle_is_a_drop(void **state)
     WeirView view = view_of(WEIR_FLUID_WATER);
     view.camera_distance = 0.6f;
     WeirImage drop, plain;
-    draw_one(*state, sim, WEIR_GROUP_FLUID, &view, all, &drop);
-    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, all, &plain);
+    draw_one(*state, sim, WEIR_GROUP_FLUID, &view, WEIR_ALL_EFFECTS, &drop);
+    draw_one(*state, sim, WEIR_GROUP_EMPTY, &view, WEIR_ALL_EFFECTS, &plain);
     uint32_t covered = 0;
     for (uint32_t k = 0; k < SIZE * SIZE; k++)
-        covered += difference(drop.pixels + 4 * k, plain.pixels + 4 * k) > 60;
+        covered += weir_test_difference(drop.pixels + 4 * k, plain.pixels + 4 * k) > 60;
     double across = 2.0 * sqrt(covered / 3.14159265); // pixels
     double sphere = 0.04 / (0.6 * 2.0 * tan(0.3)) * SIZE;
     assert_true(across > 0.3 * sphere && across < sphere);
@@ -297,12 +301,12 @@ static void size_of_drop(WeirGpu *gpu, WeirSim *sim, float share, uint32_t size[
                 (int32_t)lroundf((view.camera_target[k] - constants->origin[k]) / constants->quantum);
         WeirGpuParticles particles;
         assert_true(weir_upload_arrays(gpu, coordinate, motion, 1, &particles));
-        draw_particles(gpu, sim, &particles, &view, all, &images[shown]);
+        weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &images[shown]);
         weir_upload_release(&particles);
     }
     bool columns[SIZE] = {false}, rows[SIZE] = {false};
     for (uint32_t k = 0; k < SIZE * SIZE; k++) {
-        bool covered = difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 60;
+        bool covered = weir_test_difference(images[0].pixels + 4 * k, images[1].pixels + 4 * k) > 60;
         columns[k % SIZE] |= covered;
         rows[k / SIZE] |= covered;
     }
@@ -348,7 +352,7 @@ static double redness_of_sheet(WeirGpu *gpu, WeirSim *sim, float share, bool aga
     WeirImage image;
     WeirGpuParticles particles;
     assert_true(weir_upload_arrays(gpu, coordinate, motion, SIDE * SIDE, &particles));
-    draw_particles(gpu, sim, &particles, &view, all, &image);
+    weir_test_picture(gpu, sim, &particles, &view, WEIR_ALL_EFFECTS, SIZE, &image);
     weir_upload_release(&particles);
     const uint8_t *middle = pixel_at(&image, &view, 0.5f, 0.4f, 0.5f);
     double sum = 0.0;
@@ -399,8 +403,8 @@ static void waves_gather_light_on_the_floor(void **state)
     WeirView view = view_of(WEIR_FLUID_WATER);
     view.camera_pitch = 1.5f;
     view.camera_target[1] = 0.0f;
-    const uint32_t seen = all & ~(1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_SPHERES |
-                                  1u << WEIR_EFFECT_OCCLUSION | 1u << WEIR_EFFECT_THICKNESS);
+    const uint32_t seen = WEIR_ALL_EFFECTS & ~(1u << WEIR_EFFECT_SURFACE | 1u << WEIR_EFFECT_SPHERES |
+                                               1u << WEIR_EFFECT_OCCLUSION | 1u << WEIR_EFFECT_THICKNESS);
     WeirImage dry, still, waves, again;
     draw_waves(*state, sim, 0.0f, true, &view, seen, &dry);
     draw_waves(*state, sim, 0.0f, false, &view, seen, &still);
@@ -427,7 +431,7 @@ static double redness_of_pool(WeirGpu *gpu, WeirSim *sim, float yaw, float pitch
     view.camera_yaw = yaw;
     view.camera_pitch = pitch;
     WeirImage image;
-    draw_waves(gpu, sim, 0.0f, false, &view, all, &image);
+    draw_waves(gpu, sim, 0.0f, false, &view, WEIR_ALL_EFFECTS, &image);
     double sum = 0.0;
     for (int k = 0; k < 25; k++)
         sum += pixel_at(&image, &view, 0.4f + 0.05f * (float)(k % 5), 0.4f, 0.4f + 0.05f * (float)(k / 5))[0];
