@@ -5,12 +5,13 @@
 #include "render/effect.h"
 #include "render/frame.h"
 
-// Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
 enum { WEIR_PARTICLE_BINDINGS = 5 }; // shaders/render: group 1
+
+// Bind groups of the particle buffers drawn lately: a simulation shows a few sets of buffers in turn.
 typedef struct WeirParticleGroup {
-    WGPUBuffer buffers
-        [WEIR_PARTICLE_BINDINGS]; // as bound; references held, so that no new buffer gets their address
-    WGPUBindGroup group;          // NULL: free
+    // As bound; references held, so that no new buffer gets their address.
+    WGPUBuffer buffers[WEIR_PARTICLE_BINDINGS];
+    WGPUBindGroup group; // NULL: free
     uint64_t last_frame;
 } WeirParticleGroup;
 enum { WEIR_PARTICLE_GROUPS = 8, WEIR_PARTICLE_GROUP_FRAMES = 120 };

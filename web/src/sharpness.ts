@@ -46,6 +46,7 @@ export class Sharpness {
     } else if (level > 0 && this.#expected(drawMs, level - 1) < spare * room) {
       level--;
     }
+    while (level > 0 && !this.#isFine(level, ratio)) level--; // on a display less dense than the last one
     this.#before = { level: this.#level, drawMs };
     this.#since = now;
     const changed = level !== this.#level;

@@ -46,6 +46,15 @@ test('a picture stays fine enough to look at', () => {
   assert.equal(sharpness.share, 0.8);
 });
 
+test('on a display less dense than the last one too', () => {
+  const sharpness = new Sharpness();
+  const small = (): Card => ({ fixedMs: 1, pixelsMs: 80 });
+  run(sharpness, small, 10, 2);
+  assert.equal(sharpness.share, 0.4);
+  run(sharpness, small, 3, 1);
+  assert.equal(sharpness.share, 0.8);
+});
+
 test('what fewer pixels do not mend they do not blur', () => {
   const sharpness = new Sharpness();
   const seen = run(sharpness, () => ({ fixedMs: 35, pixelsMs: 2 }), 60);
