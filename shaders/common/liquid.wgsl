@@ -79,10 +79,11 @@ fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
     return shortest(coordinate_of(away) - place);
 }
 
-// A way in quanta of any length; across a periodic border the short one.
+// A way in quanta of any length; across a periodic border the short one. Without `%`: of negative numbers it is undefined in Vulkan,
+// wgpu-native does not work around that (gfx-rs/wgpu, issue 9578), and NVIDIA's cards give another result.
 fn shortest(way: Place) -> Place {
     let period = periods();
-    return nearest(select(way, way % max(period, Place(1)), period > Place(0)));
+    return nearest(way - period * (way / max(period, Place(1))));
 }
 
 // m. Places are wrapped when they are sorted, and may lie a little outside until then.

@@ -173,15 +173,15 @@ static void body_3d(WeirTestWorld *test)
     body->freedom[2] = 0.0f;
 }
 
-// Two bodies that touch each other across a periodic border, the lower one turning.
+// Two bodies that touch each other across a periodic border, the lower one turning. The period is not a power of two in quanta: NVIDIA's
+// cards took remainders of negative ways as unsigned, which would not show.
 static void border_2d(WeirTestWorld *test)
 {
-    *test = start(2, 0.8, 0.9, 0);
+    *test = start(2, 0.9, 0.9, 0);
     CHECK_SCENE(test->scene, weir_scene_set_string(test->scene, "domain.periodic", "x"), WEIR_OK);
-    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.8, 0.25, 0}, 0.05, 0.1);
-    weir_test_world_solid(test, WEIR_SOLID_FIXED, (double[]){0, -0.15, 0}, (double[]){0.8, 0, 0}, NOWHERE);
-    const double low[2][3] = {{0.65, 0.3, 0}, {0.75, 0.47, 0}},
-                 high[2][3] = {{0.95, 0.45, 0}, {0.9, 0.62, 0}};
+    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){0.9, 0.25, 0}, 0.05, 0.1);
+    weir_test_world_solid(test, WEIR_SOLID_FIXED, (double[]){0, -0.15, 0}, (double[]){0.9, 0, 0}, NOWHERE);
+    const double low[2][3] = {{0.75, 0.3, 0}, {0.85, 0.47, 0}}, high[2][3] = {{1.05, 0.45, 0}, {1, 0.62, 0}};
     for (int n = 0; n < 2; ++n) {
         WeirSolid *body = weir_test_world_solid(test, WEIR_SOLID_FREE, low[n], high[n], NOWHERE);
         weir_test_world_body(test, body, low[n], high[n], 600);
