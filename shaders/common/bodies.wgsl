@@ -208,15 +208,20 @@ fn gyroscopic(n: u32, state: SolidState) -> vec3f {
     return cross(state.angular_velocity.xyz, rotate(state.orientation, momentum));
 }
 
+// WEIR_DRAGGED_SHARE: of the fluid in reach of a free body's particles, what counts as dragged along with it, in state.force.w.
+const DRAGGED_SHARE = 0.5;
+
 fn kicked_free(n: u32, given: SolidState, force: vec3f, torque: vec3f, dt: f32) -> SolidState {
     var state = given;
     let alpha = apply_inverse_inertia(n, state, torque - gyroscopic(n, state));
+    let mass = solid_table[n].mass;
+    let slow = select(1.0, mass / state.force.w, mass < state.force.w);
     var a = vec3f(0.0);
-    if solid_table[n].mass > 0.0 {
-        a = force / solid_table[n].mass + parameters.gravity.xyz;
+    if mass > 0.0 {
+        a = force / mass + parameters.gravity.xyz;
     }
-    state.acceleration = vec4f(a * solid_table[n].freedom.xyz, 0.0);
-    state.angular_acceleration = vec4f(alpha * solid_table[n].angular_freedom.xyz, 0.0);
+    state.acceleration = vec4f(slow * a * solid_table[n].freedom.xyz, 0.0);
+    state.angular_acceleration = vec4f(slow * alpha * solid_table[n].angular_freedom.xyz, 0.0);
     state.velocity += dt * state.acceleration;
     state.angular_velocity += dt * state.angular_acceleration;
     return state;

@@ -26,6 +26,11 @@ fn motion_of_solid(group: u32, place: Place) -> vec3f {
     return solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
 }
 
+// What a particle in its face may stand for, in particles of fluid (weir_solid_bulk()): 1, or less in a light body.
+fn bulk_of(group: u32) -> f32 {
+    return solid_table[group - GROUP_SOLID].freedom.w;
+}
+
 // With what its surface slides.
 fn solid_velocity(group: u32, place: Place) -> vec3f {
     return solid_table[group - GROUP_SOLID].surface_velocity.xyz + motion_of_solid(group, place);
@@ -71,7 +76,8 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
                     / (r * constants.sound_speed);
                 let bounded = min(push, share * (pace * overlap + max(approach, 0.0)));
                 let rate = min(BRAKE_STRENGTH / parameters.courant * near, share);
-                sum += ((bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
+                let bulk = bulk_of(select(u32(other.w), u32(own.w), solid));
+                sum += (bulk * (bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
             }
         }
     }
@@ -79,7 +85,7 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
 }
 
 // Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
-// damped, never attracting.
+// damped, never attracting; less so if either is light.
 fn contact_force(own: vec4i) -> Vector {
     let spacing = parameters.particle_spacing;
     let mass = constants.particle_mass;
@@ -100,7 +106,7 @@ fn contact_force(own: vec4i) -> Vector {
                 let relative = velocity - solid_velocity(u32(other.w), place_of(other));
                 let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
                     - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;
-                force += (max(push, 0.0) / r) * offset;
+                force += (min(bulk_of(group), bulk_of(u32(other.w))) * max(push, 0.0) / r) * offset;
             }
         }
     }

@@ -6,7 +6,8 @@
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
 // out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; density_rate, if none
-//      follows. kicked, of particles of free bodies: force of contact; its second copy: force of the fluid. control: maxima,
+//      follows. kicked, of particles of free bodies: force of contact; its second copy: force of the fluid, and how much of it
+//      is around, kg. control: maxima,
 //      where the next step finds the particles
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
 @group(0) @binding(BINDING_density_rate) var<storage, read_write> density_rate: array<f32>;
@@ -119,8 +120,11 @@ fn is_solid_neighbor(group: u32) -> bool {
     return is_solid(group);
 }
 
-// A particle that was counted as its own neighbour so many times too often.
+// A particle that was counted as its own neighbour so many times too often. A solid's was not.
 fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
+    if ON_SOLIDS && own.solid {
+        return;
+    }
     (*sums).filling -= times * kernel_shape(1.0) * own.inverse_density;
 }
 
@@ -294,7 +298,8 @@ fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
     return rho * (compress * sums.divergence + shift_rate + pull) + constants.laplacian_factor * spread;
 }
 
-fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> Vector {
+// And in w the share of its support that fluid fills.
+fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> vec4f {
     let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
     var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
@@ -302,7 +307,7 @@ fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> V
     if meets_barrier(sums, select(control.max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u)) {
         acceleration += barrier_of(own, own_motion);
     }
-    return acceleration;
+    return vec4f(wide(acceleration), constants.particle_mass * constants.kernel_factor * sums.filling);
 }
 
 fn wants_force(group: u32) -> bool {
@@ -454,11 +459,11 @@ fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if !wants_force(u32(own.w)) {
         return;
     }
-    let acceleration = wide(acceleration_of_solid(i, own, own_motion, local));
+    let acceleration = acceleration_of_solid(i, own, own_motion, local);
     if FORCES_READ {
-        set_kicked(i, vec4f(acceleration, linear_pressure(own_motion.w)));
+        set_kicked(i, vec4f(acceleration.xyz, linear_pressure(own_motion.w)));
         return;
     }
     set_kicked(i, vec4f(wide(contact_force(own)), 0.0));
-    set_kicked(constants.particle_count + i, vec4f(constants.particle_mass * acceleration, 0.0));
+    set_kicked(constants.particle_count + i, constants.particle_mass * acceleration);
 }

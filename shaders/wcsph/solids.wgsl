@@ -18,18 +18,18 @@ fn kicked_solid(n: u32) -> SolidState {
         }
         return state;
     }
-    var sums = array<vec3f, 4>();
+    var sums = array<vec4f, 4>();
     for (var b = 0u; b < FREE_BLOCKS; b++) {
         if blocks[b].x == n {
             for (var k = 0u; k < 4u; k++) {
-                sums[k] += solid_sum[4u * b + k].xyz;
+                sums[k] += solid_sum[4u * b + k];
             }
         }
     }
     // Contact moves the body, but the force that is told is the fluid's.
-    state.force = vec4f(sums[0], 0.0);
-    state.torque = vec4f(sums[1], 0.0);
-    state = kicked_free(n, state, sums[0] + sums[2], sums[1] + sums[3], control.dt);
+    state.force = vec4f(sums[0].xyz, DRAGGED_SHARE * sums[0].w);
+    state.torque = sums[1];
+    state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.dt);
     let acceleration = length(state.acceleration.xyz);
     if is_finite(acceleration) {
         atomicMax(&largest, bitcast<u32>(acceleration));

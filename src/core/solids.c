@@ -196,16 +196,26 @@ static void gyroscopic(const WeirSolid *solid, const WeirSolidState *state, floa
     cross(state->angular_velocity, world, torque);
 }
 
+float weir_solid_bulk(const WeirSolid *solid, uint32_t dimension, float particle_mass)
+{
+    if (solid->kind != WEIR_SOLID_FREE) return 1.0f;
+    uint64_t side = 1;
+    while (side * side * (dimension == 3 ? side : 1) < solid->count) ++side;
+    float pairs = 2.0f * (float)(dimension == 3 ? side * side : side); // across a face
+    return fminf(1.0f, solid->mass / (pairs * particle_mass));
+}
+
 static void kick_free(const WeirSolid *solid, const float gravity[4], float dt, WeirSolidState *state)
 {
     float torque[3], spin[3], alpha[3];
     gyroscopic(solid, state, spin);
     for (int axis = 0; axis < 3; ++axis) torque[axis] = state->torque[axis] - spin[axis];
     apply_inverse_inertia(solid, state, torque, alpha);
+    float slow = solid->mass < state->force[3] ? solid->mass / state->force[3] : 1.0f;
     for (int axis = 0; axis < 3; ++axis) {
         float a = solid->mass > 0.0f ? state->force[axis] / solid->mass + gravity[axis] : 0.0f;
-        state->acceleration[axis] = a * solid->freedom[axis];
-        state->angular_acceleration[axis] = alpha[axis] * solid->angular_freedom[axis];
+        state->acceleration[axis] = slow * a * solid->freedom[axis];
+        state->angular_acceleration[axis] = slow * alpha[axis] * solid->angular_freedom[axis];
         state->velocity[axis] += dt * state->acceleration[axis];
         state->angular_velocity[axis] += dt * state->angular_acceleration[axis];
     }

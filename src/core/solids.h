@@ -7,8 +7,16 @@
 // States at the start of the world's solids.
 void weir_solids_start(const WeirWorld *world, WeirSolidState *states);
 
-// Second half of a step, after the fluid's forces are summed into states[].force and torque: free bodies take
-// their new velocities over `dt` (gravity, fluid, contact), driven ones the mean velocities of [time, time + dt].
+// Share of a fluid particle's mass that each particle in a solid's face may stand for where solids or a solid and fluid repel each
+// other: 1 but for light and small free bodies, which a particle's force would throw (docs/wcsph.md, "Light bodies").
+float weir_solid_bulk(const WeirSolid *solid, uint32_t dimension, float particle_mass);
+
+// Of the fluid in reach of a free body's particles, the share that counts as dragged along with it.
+#define WEIR_DRAGGED_SHARE 0.5f
+
+// Second half of a step, after the fluid's forces are summed into states[].force and torque, and the mass of the fluid that a
+// body drags along into states[].force[3]: free bodies take their new velocities over `dt` (gravity, fluid, contact), driven
+// ones the mean velocities of [time, time + dt].
 // acceleration and angular_acceleration become those of this step.
 void weir_solids_kick(const WeirWorld *world, const float gravity[4], double time, float dt,
                       WeirSolidState *states);

@@ -62,8 +62,9 @@ typedef struct WeirSolidState {
     float angular_velocity[4];     // rad/s
     float acceleration[4];         // of the reference point, m/s^2: enters the wall pressure
     float angular_acceleration[4]; // rad/s^2
-    float force[4];                // of the fluid on the solid, last step, N (per metre of depth in 2D)
-    float torque[4];               // of the fluid about the reference point, N m
+    float force[4];  // of the fluid on the solid, last step, N (per metre of depth in 2D); [3]: of a free
+                     // body, mass of the fluid that it drags along, kg
+    float torque[4]; // of the fluid about the reference point, N m
 } WeirSolidState;
 
 // One row of a prescribed motion, relative to the start. Between rows: cubic Hermite interpolation.

@@ -229,15 +229,17 @@ static float radius_of(const WeirWcsphGpu *solver, const WeirSolid *solid)
     return sqrtf(most);
 }
 
-// The device's table has each solid's radius in position[3].
+// The device's table has each solid's radius in position[3], and weir_solid_bulk() in freedom[3].
 static bool write_solid_table(WeirWcsphGpu *solver)
 {
+    const WeirConstants *constants = &solver->common.constants;
     uint32_t count = solver->world.solid_count;
     WeirSolid *table = malloc(count * sizeof *table);
     if (!table) return false;
     for (uint32_t n = 0; n < count; ++n) {
         table[n] = solver->world.solids[n];
         table[n].position[3] = radius_of(solver, &table[n]);
+        table[n].freedom[3] = weir_solid_bulk(&table[n], constants->dimension, constants->particle_mass);
     }
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_solid_table, table, count * sizeof *table);
     free(table);

@@ -262,6 +262,29 @@ static void bodies_sink_to_the_ground(const WeirBackend *backend)
     }
 }
 
+// A plate and a box as light as foam fall onto water: neither it nor contact throws them. (They came back from the ceiling faster than
+// they had hit it, and what a fluid particle weighs was too much for them.)
+static void light_bodies_stay_calm(const WeirBackend *backend)
+{
+    static const struct {
+        double support, low[2], high[2], density;
+    } light[] = {{0.08, {0.404, 0.4998}, {0.596, 0.5402}, 20}, {0.05, {0.452, 0.472}, {0.548, 0.568}, 1}};
+    for (size_t n = 0; n < sizeof light / sizeof *light; ++n) {
+        WeirScene *scene = tank(2, 1, 0.7, 0.02);
+        weir_test_set(scene, "support_radius", light[n].support);
+        add_box(scene, 0, 1, 0.35);
+        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.min", light[n].low, 2), WEIR_OK);
+        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.max", light[n].high, 2), WEIR_OK);
+        CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", light[n].density), WEIR_OK);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
+        CHECK_SIM(sim, weir_sim_run_until(sim, 0.45), WEIR_OK);
+        // No faster than what falls from the ceiling.
+        assert_true(weir_test_diagnose(sim, 0).max_speed < sqrt(2 * 9.81 * 0.7));
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 // Shifting goes by the fluid's largest speed, but one particle that flies at half the speed of sound, far off, must not shake a block
 // at rest: it did, until whole dam breaks flew apart.
 static void a_flyer_shakes_nothing_else(const WeirBackend *backend)
@@ -635,6 +658,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(walls_hold_a_splash),
     WEIR_SHARED_TEST(walls_hold_fast_fluid),
     WEIR_SHARED_TEST(bodies_sink_to_the_ground),
+    WEIR_SHARED_TEST(light_bodies_stay_calm),
     WEIR_SHARED_TEST(a_flyer_shakes_nothing_else),
     WEIR_SHARED_TEST(shifting_makes_no_pairs),
     WEIR_SHARED_TEST(a_standing_sound_wave_keeps_its_energy),

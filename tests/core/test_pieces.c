@@ -441,6 +441,36 @@ static void motions_become_tables(void **state)
     weir_scene_destroy(scene);
 }
 
+// Of fluid that a body drags along what it weighs itself is left out; a body that weighs less starts slower, by force, gravity and
+// torque alike, so that what is in balance stays so, and without fluid around it falls freely.
+static void light_bodies_start_slower(void **state)
+{
+    (void)state;
+    WeirSolid solid = {.kind = WEIR_SOLID_FREE, .count = 100, .mass = 2, .freedom = {1, 1, 1}};
+    for (int axis = 0; axis < 3; ++axis) {
+        solid.angular_freedom[axis] = 1;
+        solid.inverse_inertia[axis][axis] = 0.5f;
+    }
+    const WeirWorld world = {.solids = &solid, .solid_count = 1};
+    static const struct {
+        float dragged, share;
+    } cases[] = {{0, 1}, {1.9f, 1}, {2, 1}, {8, 0.25f}};
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+        WeirSolidState now = {
+            .orientation = {0, 0, 0, 1}, .force = {4, 20, 0, cases[n].dragged}, .torque = {0, 0, 6}};
+        weir_solids_kick(&world, (float[4]){0, -10, 0, 0}, 0.0, 0.5f, &now);
+        CHECK_NEAR(now.velocity[0], 0.5 * 2 * cases[n].share, 1e-6);
+        CHECK_NEAR(now.velocity[1], 0, 1e-6); // force and weight are in balance
+        CHECK_NEAR(now.angular_velocity[2], 0.5 * 3 * cases[n].share, 1e-6);
+    }
+    // 100 particles are 10 wide in 2D, 5 in 3D; across a face two pairs each.
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f), 2 / (2 * 10 * 0.5), 1e-6);
+    CHECK_NEAR(weir_solid_bulk(&solid, 3, 0.5f), 2 / (2 * 25 * 0.5), 1e-6);
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.01f), 1, 0);
+    solid.kind = WEIR_SOLID_DRIVEN;
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f), 1, 0);
+}
+
 static void emitters_have_points_and_slots(void **state)
 {
     (void)state;
@@ -574,6 +604,7 @@ int main(void)
         cmocka_unit_test(bodies_have_their_mass),
         cmocka_unit_test(solid_moments_in_3d),
         cmocka_unit_test(motions_become_tables),
+        cmocka_unit_test(light_bodies_start_slower),
         cmocka_unit_test(emitters_have_points_and_slots),
         cmocka_unit_test(fast_emitters_have_more_chances),
         cmocka_unit_test(drains_are_grouped),

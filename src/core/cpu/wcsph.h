@@ -9,6 +9,8 @@
 
 // Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
 enum { WEIR_WCSPH_CHUNK = 512, WEIR_WCSPH_CELL_CHUNK = 4096 };
+// Numbers per solid particle in solid_force.
+enum { WEIR_WCSPH_SOLID_FORCES = 7 };
 
 // Between steps all of a particle; vectors have three arrays also in 2D.
 typedef struct WeirWcsphParticles {
@@ -71,9 +73,11 @@ typedef struct WeirWcsph {
     WeirWorld world;           // without particles
     WeirSolidState *solids;
     WeirWcsphEmitterState *emitters;
-    uint32_t *vacancy;  // by id of the fluid, if there are emitters: for weir_wcsph_emit()
-    float *local;       // 3 per solid particle: where it is from its solid's reference point at the start, m
-    float *solid_force; // 6 per solid particle: force of the fluid, of contact, N
+    uint32_t *vacancy; // by id of the fluid, if there are emitters: for weir_wcsph_emit()
+    float *local;      // 3 per solid particle: where it is from its solid's reference point at the start, m
+    float *bulk;       // by solid: weir_solid_bulk()
+    float *
+        solid_force; // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid, of contact, N; mass of fluid, kg
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
     uint32_t emission_interval; // weir_world_emission_interval()

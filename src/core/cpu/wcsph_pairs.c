@@ -237,7 +237,7 @@ typedef struct ForceLanes {
     float second_half_in_supports;               // 3/2 of second_half, in supports
     float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
-    WeirLanes support2, stick, barrier_reach, pressure;
+    WeirLanes support2, stick, bulk, barrier_reach, pressure;
     Vector seen_velocity, velocity;
 } ForceLanes;
 
@@ -265,6 +265,7 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
             weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
         .support2 = weir_lanes_fill(1.0f / (constants->inverse_support * constants->inverse_support)),
         .stick = weir_lanes_load(data->stick + begin),
+        .bulk = weir_lanes_load(data->bulk + begin),
         .pressure = weir_lanes_load(data->pressure + begin),
         .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
         .velocity = load(data->velocity, begin, variant),
@@ -289,7 +290,8 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes overlap = weir_lanes_max(range - r, zero) * (own->barrier_pace / spacing);
     push = weir_lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
     near = weir_lanes_min(near, weir_lanes_fill(share));
-    add_scaled(sum, (push + near * weir_lanes_max(approach - brake_limit, zero)) / r, x, variant);
+    push = (push + near * weir_lanes_max(approach - brake_limit, zero)) * (own->bulk * data->bulk[j]);
+    add_scaled(sum, push / r, x, variant);
 }
 
 // F^ where the step ends; of Wendland's kernel, q^3 with q = 1 - s, to first order, which saves a root. `growth`: of r^2, over
@@ -346,9 +348,9 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
         if (own->friction) add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
         add_barrier(data, own, j, x, r, variant, &sums->barrier);
     }
-    if (solids) return;
     WeirLanes shape = kernel_shape(s, variant);
     sums->filling += shape * data->inverse_density[j];
+    if (solids) return;
     sums->surface += slope * r2;
     if (own->clustering)
         add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
@@ -550,7 +552,10 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
         ForceSums sums = sum_forces(data, group, begin, variant, true);
         Vector acceleration = pressure_acceleration(data, &sums, begin, (WeirMask){0}, variant);
         add_viscous_forces(data, &sums, begin, (WeirMask){0}, variant, &acceleration);
-        store_where(data->acceleration, begin, acceleration, chosen(data->needs_force, begin, group->lanes));
+        WeirMask takes = chosen(data->needs_force, begin, group->lanes);
+        store_where(data->acceleration, begin, acceleration, takes);
+        float scale = data->constants->particle_mass * data->constants->kernel_factor;
+        weir_lanes_store_where(data->wetted + begin, scale * sums.filling, takes);
     }
 }
 

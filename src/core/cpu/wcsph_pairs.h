@@ -18,6 +18,7 @@ typedef struct WeirWcsphData {
     const float *velocity[3]; // m/s, at the start of the step
     float *is_fluid;          // 1 fluid, 0 solid
     float *stick;             // 1 fluid and no-slip solids, 0 free-slip solids
+    float *bulk;              // of solids: weir_solid_bulk(); of fluid 1
     float *needs_force;       // solids: 1 if the force on the particle is wanted
     float *excess;            // density less rest density, kg/m^3; of solids: of their extrapolated pressure
     float *inverse_density;   // m^3/kg
@@ -29,6 +30,8 @@ typedef struct WeirWcsphData {
     float *shift[3];        // shifting velocity, m/s
     float *rate;            // drho/dt, kg/(m^3 s)
     float *weight;          // walls: sum of W, 0 without fluid in reach
+    float *
+        wetted; // forces: share of the support of a solid's particle that fluid fills, where its force is wanted
     float *extrapolated[3]; // walls: sum_j rho_j x_wj W / sum W, kg/m^2
 } WeirWcsphData;
 

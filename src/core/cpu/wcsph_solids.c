@@ -147,7 +147,7 @@ void weir_wcsph_walls(WeirWcsph *solver)
 // ---- Forces on solids ----
 
 // Penalty contact of sorted particle i, of a free body, with the particles of other solids closer than one spacing:
-// stiff as the fluid, half damped.
+// stiff as the fluid, half damped, less so if either is light.
 static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
 {
     const WeirConstants *constants = &solver->constants;
@@ -174,9 +174,15 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
             if (r2 >= spacing * spacing || r2 == 0.0f) continue;
             float r = sqrtf(r2), push = stiffness * (spacing - r) - damping * approach / r;
             if (push <= 0.0f) continue;
+            push *= fminf(data->bulk[i], data->bulk[j]);
             for (int axis = 0; axis < 3; ++axis) force[axis] += push * x[axis] / r;
         }
     }
+}
+
+static float *force_on(const WeirWcsph *solver, uint32_t id)
+{
+    return solver->solid_force + WEIR_WCSPH_SOLID_FORCES * (size_t)(id - solver->constants.first_solid);
 }
 
 static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
@@ -185,13 +191,21 @@ static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
     const WeirWcsphData *data = &solver->data;
     for (uint32_t i = begin; i < end; ++i) {
         if (data->needs_force[i] == 0.0f) continue;
-        float *force =
-            solver->solid_force + 6 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
-        for (int axis = 0; axis < 3; ++axis)
-            force[axis] = solver->constants.particle_mass * data->acceleration[axis][i];
+        float mass = solver->constants.particle_mass;
+        float *force = force_on(solver, solver->sorted.id[i]);
+        for (int axis = 0; axis < 3; ++axis) force[axis] = mass * data->acceleration[axis][i];
+        force[6] = mass * data->wetted[i];
         if (solid_of(solver, solver->sorted.group[i])->kind == WEIR_SOLID_FREE)
             contact_at(solver, i, force + 3);
     }
+}
+
+// Of the fluid that a free body drags along: docs/wcsph.md, "Light bodies".
+static float dragged_mass(const WeirWcsph *solver, const WeirSolid *solid)
+{
+    double sum = 0.0;
+    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)[6];
+    return (float)(WEIR_DRAGGED_SHARE * sum);
 }
 
 // Sums columns [0, 3) (fluid) or [3, 6) (contact) of the particles' forces in order of id, in double precision.
@@ -201,7 +215,7 @@ static void sum_forces(const WeirWcsph *solver, uint32_t n, int column, float fo
     double total[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
     for (uint32_t k = 0; k < solid->count; ++k) {
         uint32_t id = solid->first + k;
-        const float *f = solver->solid_force + 6 * (size_t)(id - solver->constants.first_solid) + column;
+        const float *f = force_on(solver, id) + column;
         float place[3], v[3], arm[3], turn[3];
         weir_solid_point(&solver->solids[n], local_of(solver, id), place, v);
         for (int axis = 0; axis < 3; ++axis) arm[axis] = place[axis] - solver->solids[n].position[axis];
@@ -241,6 +255,7 @@ void weir_wcsph_solids(WeirWcsph *solver)
             state->force[axis] += force[axis];
             state->torque[axis] += torque[axis];
         }
+        state->force[3] = dragged_mass(solver, &solver->world.solids[n]);
     }
     weir_solids_kick(&solver->world, solver->parameters.gravity, solver->clock.time, solver->dt,
                      solver->solids);

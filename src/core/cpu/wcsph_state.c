@@ -32,11 +32,11 @@ static bool make_particles(WeirWcsphParticles *particles, size_t size)
 // One block for the arrays of `data` that do not belong to the sorted particles.
 static bool make_sums(WeirWcsph *solver, size_t size)
 {
-    enum { ARRAYS = 21 };
+    enum { ARRAYS = 23 };
     float *next = solver->sums = calloc(ARRAYS * size, sizeof *next);
     if (!next) return false;
     WeirWcsphData *data = &solver->data;
-    float **single[] = {&data->inverse_density, &data->pressure, &data->weight};
+    float **single[] = {&data->inverse_density, &data->pressure, &data->weight, &data->wetted};
     float **vector[] = {data->seen_velocity, data->new_velocity, data->acceleration, data->shift,
                         data->extrapolated};
     for (size_t n = 0; n < sizeof single / sizeof *single; ++n, next += size) *single[n] = next;
@@ -45,6 +45,7 @@ static bool make_sums(WeirWcsph *solver, size_t size)
     }
     data->is_fluid = next, next += size;
     data->stick = next, next += size;
+    data->bulk = next, next += size;
     data->needs_force = next;
     return true;
 }
@@ -104,9 +105,10 @@ bool weir_wcsph_allocate(WeirWcsph *solver, const WeirSolverSetup *setup)
     solver->vacancy =
         calloc(solver->has_emitters ? setup->constants.first_solid + 1 : 1, sizeof *solver->vacancy);
     solver->local = calloc(3 * solid_particles + 1, sizeof *solver->local);
-    solver->solid_force = calloc(6 * solid_particles + 1, sizeof *solver->solid_force);
+    solver->bulk = calloc(solids, sizeof *solver->bulk);
+    solver->solid_force = calloc(WEIR_WCSPH_SOLID_FORCES * solid_particles + 1, sizeof *solver->solid_force);
     return solver->solids && solver->snapshot.solids && solver->emitters && solver->vacancy &&
-           solver->local && solver->solid_force;
+           solver->local && solver->bulk && solver->solid_force;
 }
 
 void weir_wcsph_free(WeirWcsph *solver)
@@ -123,6 +125,7 @@ void weir_wcsph_free(WeirWcsph *solver)
     free(solver->emitters);
     free(solver->vacancy);
     free(solver->local);
+    free(solver->bulk);
     free(solver->solid_force);
     if (solver->host) {
         free(solver->host->position);
@@ -164,6 +167,9 @@ void weir_wcsph_set_particles(WeirWcsph *solver, const WeirParticles *particles)
 {
     for (uint32_t i = 0; i < solver->constants.particle_count; ++i) set_particle(solver, particles, i);
     weir_solids_start(&solver->world, solver->solids);
+    for (uint32_t n = 0; n < solver->world.solid_count; ++n)
+        solver->bulk[n] = weir_solid_bulk(&solver->world.solids[n], solver->constants.dimension,
+                                          solver->constants.particle_mass);
     if (solver->has_moving_solids) weir_wcsph_place_solids(solver, &solver->state);
     memset(solver->emitters, 0, (solver->world.emitter_count + 1) * sizeof *solver->emitters);
     solver->clock = (WeirWcsphClock){0};
