@@ -1,10 +1,13 @@
 # The front door: every target first installs what it needs and is missing (tools/setup.sh), then hands over to
 # CMake, Ninja and npm.
 .DEFAULT_GOAL := all
-.PHONY: all run check bench validate docs format format-check clean setup help native page
+.PHONY: all run check bench validate stress docs format format-check clean setup help native page
 MAKEFLAGS += --no-print-directory
 PORT ?= 8080
 RESOLUTION ?= normal
+SCENES ?= 100
+SEED ?= 1
+BACKEND ?= auto
 
 all: ## build the command line program, build/weir
 	@tools/setup.sh native
@@ -28,6 +31,11 @@ validate: ## run the published cases, compare with their references, write build
 	@tools/setup.sh native report
 	@tools/build.sh native
 	@tools/validate.sh $(RESOLUTION)
+
+stress: ## run random scenes of wcsph and tell which blow up (SCENES=100, SEED=1, BACKEND=auto|cpu|gpu); they stay in build/stress
+	@tools/setup.sh native
+	@tools/build.sh native
+	@/usr/bin/python3 -B tools/stress.py --scenes $(SCENES) --seed $(SEED) --backend $(BACKEND)
 
 docs: ## write docs/parameters.md, scene_keys.md and scene.schema.json anew from the lists in the core
 	@tools/setup.sh native

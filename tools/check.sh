@@ -60,6 +60,7 @@ step "format" tools/format.sh --check
 step "build native (gcc)" compile native
 ln -sfn native/weir build/weir
 step "tests native (gcc)" run_ctest native
+step "random scenes" /usr/bin/python3 -B tools/stress.py --scenes 16 --time 0.25 --particles 1500 --backend cpu
 # What differs between compilers is how they optimise the solver, and what their sanitizers see in it and in what reads
 # scenes: both build and test that in both ways. Programs and the GPU's host code run once natively and once with
 # sanitizers, clang's, which check casts of floats and alignment too; most time of their tests goes into software drivers

@@ -238,6 +238,15 @@ fn kicked_driven(n: u32, given: SolidState, dt: f32) -> SolidState {
     return state;
 }
 
+// Compensated (Kahan, Commun. ACM 8, 1965): 900 m from the origin float32 knows 0.06 mm, and a step is less.
+fn moved_by(given: SolidState, way: vec3f) -> SolidState {
+    var state = given;
+    let sum = state.rest.xyz + way;
+    state.position = vec4f(given.position.xyz + sum, 0.0);
+    state.rest = vec4f(sum - (state.position.xyz - given.position.xyz), 0.0);
+    return state;
+}
+
 // After a move over `dt`, half a step, that ends at `time`.
 fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState {
     var state = given;
@@ -246,10 +255,12 @@ fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState 
     }
     if is_driven(n) {
         let pose = pose_at(n, time);
-        state.position = vec4f(solid_table[n].position.xyz + pose.displacement, 0.0);
+        state.position = vec4f(solid_table[n].position.xyz, 0.0);
+        state.rest = vec4f(0.0);
+        state = moved_by(state, pose.displacement);
         state.orientation = rotation_quaternion(pose.rotation);
     } else if solid_table[n].kind == SOLID_FREE {
-        state.position += dt * state.velocity;
+        state = moved_by(state, dt * state.velocity.xyz);
         state.orientation = turned(state.orientation, state.angular_velocity.xyz, dt);
     }
     return state;
@@ -263,7 +274,7 @@ fn solid_way(n: u32, before: SolidState, after: SolidState) -> u32 {
     }
     let radius = solid_table[n].position.w;
     let turn = min(length(after.orientation - before.orientation), length(after.orientation + before.orientation));
-    let way = length(after.position.xyz - before.position.xyz) + 2.0 * radius * turn
+    let way = length(after.position.xyz - before.position.xyz + after.rest.xyz - before.rest.xyz) + 2.0 * radius * turn
         + 1e-6 * (length(after.position.xyz - constants.origin.xyz) + radius);
     return u32(min(way * constants.inverse_quantum, 1e8)) + 4u;
 }

@@ -75,7 +75,7 @@ fn coordinate_of(away: vec3f) -> Place {
 // Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the
 // solid at the beginning.
 fn way_to(state: SolidState, start: vec3f, place: Place) -> Place {
-    let away = state.position.xyz - constants.origin.xyz + rotate(state.orientation, start);
+    let away = state.position.xyz - constants.origin.xyz + state.rest.xyz + rotate(state.orientation, start);
     return shortest(coordinate_of(away) - place);
 }
 

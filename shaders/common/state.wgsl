@@ -143,6 +143,7 @@ struct SolidState {
     angular_acceleration: vec4f,
     force: vec4f,
     torque: vec4f,
+    rest: vec4f,
 }
 const NOW = 0u;
 const NEW = SOLID_COUNT;

@@ -4,6 +4,6 @@
 struct SolidState {
     position: vec4f,
     orientation: vec4f,
-    unused: array<vec4f, 6>,
+    unused: array<vec4f, 7>,
 }
 @group(1) @binding(1) var<storage, read> solid_state: array<SolidState>;

@@ -26,7 +26,7 @@ void weir_solids_kick(const WeirWorld *world, const float gravity[4], double tim
 void weir_solids_drift(const WeirWorld *world, double time, float dt, WeirSolidState *states);
 
 // Where the solid's point that started at `local` (relative to its reference point, m) is now, and its velocity.
-void weir_solid_point(const WeirSolidState *state, const float local[3], float position[3],
+void weir_solid_point(const WeirSolidState *state, const float local[3], double position[3],
                       float velocity[3]);
 
 // Displacement, rotation (angle times axis) and their rates of a driven solid at `time`.

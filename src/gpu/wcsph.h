@@ -138,7 +138,7 @@ typedef struct WeirWcsphControl {
 } WeirWcsphControl;
 static_assert(sizeof(WeirWcsphControl) == 304, "the layout of the shaders' struct");
 
-static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 128, "strides of the shaders' arrays");
+static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 144, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
 // What a uniform buffer may hold everywhere.
 static_assert(WEIR_MAX_EMITTERS * sizeof(WeirEmitter) <= 65536 &&

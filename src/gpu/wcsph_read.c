@@ -158,7 +158,8 @@ void weir_gpu_wcsph_take_solids(WeirWcsphGpu *solver, const WeirSolidState *soli
 static void solid_velocity(const WeirWcsphGpu *solver, uint32_t group, uint32_t id, float velocity[3])
 {
     const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
-    float place[3], v[3] = {0.0f, 0.0f, 0.0f};
+    double place[3];
+    float v[3] = {0.0f, 0.0f, 0.0f};
     if (solid->kind != WEIR_SOLID_FIXED)
         weir_solid_point(&solver->host_solids[group - WEIR_GROUP_SOLID],
                          solver->local_place + 4 * (size_t)(id - solver->common.constants.first_solid), place,

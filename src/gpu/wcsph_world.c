@@ -209,12 +209,12 @@ static void place_solids(const WeirWcsphGpu *solver, const WeirSolidState *state
     for (uint32_t i = constants->first_solid; i < constants->particle_count; ++i) {
         uint32_t n = (uint32_t)state->coordinate[i][3] - WEIR_GROUP_SOLID;
         if (solver->world.solids[n].kind == WEIR_SOLID_FIXED) continue;
-        float place[3], velocity[3];
+        double place[3];
+        float velocity[3];
         weir_solid_point(&states[n], solver->local_place + 4 * (size_t)(i - constants->first_solid), place,
                          velocity);
         for (uint32_t axis = 0; axis < constants->dimension; ++axis)
-            state->coordinate[i][axis] =
-                wrapped(coordinate_of(constants, (double)place[axis], axis), periods[axis]);
+            state->coordinate[i][axis] = wrapped(coordinate_of(constants, place[axis], axis), periods[axis]);
     }
 }
 

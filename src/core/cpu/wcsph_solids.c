@@ -36,7 +36,8 @@ static void velocities_chunk(void *context, uint32_t begin, uint32_t end)
         uint32_t group = target->particles->group[i];
         if (!weir_group_is_solid(group)) continue;
         const WeirSolid *solid = solid_of(solver, group);
-        float place[3], v[3] = {0.0f, 0.0f, 0.0f};
+        double place[3];
+        float v[3] = {0.0f, 0.0f, 0.0f};
         if (is_moving(solid))
             weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
                              local_of(solver, target->particles->id[i]), place, v);
@@ -68,11 +69,12 @@ static void places_chunk(void *context, uint32_t begin, uint32_t end)
     for (uint32_t i = begin; i < end; ++i) {
         uint32_t group = target->particles->group[i];
         if (!weir_group_is_solid(group) || !is_moving(solid_of(solver, group))) continue;
-        float place[3], v[3];
+        double place[3];
+        float v[3];
         weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
                          local_of(solver, target->particles->id[i]), place, v);
         for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            double away = rint(((double)place[axis] - constants->origin[axis]) / constants->quantum);
+            double away = rint((place[axis] - constants->origin[axis]) / constants->quantum);
             if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
             target->particles->x[axis][i] = fabs(away) < 2e9 ? (int32_t)away : 0;
         }
@@ -94,15 +96,22 @@ static void cross(const float a[3], const float b[3], float result[3])
     result[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static void arm_of(const WeirSolidState *state, const double place[3], float arm[3])
+{
+    for (int axis = 0; axis < 3; ++axis)
+        arm[axis] = (float)(place[axis] - (double)state->position[axis] - (double)state->rest[axis]);
+}
+
 // Acceleration of the solid at sorted particle i: a + alpha x r + w x (w x r).
 static void acceleration_at(const WeirWcsph *solver, uint32_t i, uint32_t group, float a[3])
 {
     const WeirSolidState *state = &solver->solids[group - WEIR_GROUP_SOLID];
-    float place[3], v[3], arm[3], swing[3], spin[3], pull[3];
+    double place[3];
+    float v[3], arm[3], swing[3], spin[3], pull[3];
     memset(a, 0, 3 * sizeof *a);
     if (!is_moving(solid_of(solver, group))) return;
     weir_solid_point(state, local_of(solver, solver->sorted.id[i]), place, v);
-    for (int axis = 0; axis < 3; ++axis) arm[axis] = place[axis] - state->position[axis];
+    arm_of(state, place, arm);
     cross(state->angular_acceleration, arm, swing);
     cross(state->angular_velocity, arm, spin);
     cross(state->angular_velocity, spin, pull);
@@ -216,9 +225,10 @@ static void sum_forces(const WeirWcsph *solver, uint32_t n, int column, float fo
     for (uint32_t k = 0; k < solid->count; ++k) {
         uint32_t id = solid->first + k;
         const float *f = force_on(solver, id) + column;
-        float place[3], v[3], arm[3], turn[3];
+        double place[3];
+        float v[3], arm[3], turn[3];
         weir_solid_point(&solver->solids[n], local_of(solver, id), place, v);
-        for (int axis = 0; axis < 3; ++axis) arm[axis] = place[axis] - solver->solids[n].position[axis];
+        arm_of(&solver->solids[n], place, arm);
         cross(arm, f, turn);
         for (int axis = 0; axis < 3; ++axis) {
             total[axis] += f[axis];
