@@ -49,7 +49,7 @@ compile() {
 
 run_ctest() {
     [[ -e build/$1/build.ninja ]] || { echo "not built"; return 1; }
-    (cd "build/$1" && ctest -j "$jobs" --output-on-failure --no-tests=error --timeout 300 "${@:2}")
+    (cd "build/$1" && ctest -j "$jobs" --output-on-failure --no-tests=error --timeout 600 "${@:2}")
 }
 
 in_web() {

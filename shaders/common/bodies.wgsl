@@ -238,12 +238,16 @@ fn kicked_driven(n: u32, given: SolidState, dt: f32) -> SolidState {
     return state;
 }
 
-// Compensated (Kahan, Commun. ACM 8, 1965): 900 m from the origin float32 knows 0.06 mm, and a step is less.
+// 900 m from the origin float32 knows 0.06 mm, and a step is less. So the position moves by whole units, twice what float32 tells
+// apart there, and the rest waits. (Kahan's sum is shorter, but some drivers take (a + b) - a for b.)
 fn moved_by(given: SolidState, way: vec3f) -> SolidState {
     var state = given;
+    let exponent = max(bitcast<vec3u>(state.position.xyz) & vec3u(0x7f800000u), vec3u(0x20000000u));
+    let unit = bitcast<vec3f>(exponent - vec3u(22u << 23u));
     let sum = state.rest.xyz + way;
-    state.position = vec4f(given.position.xyz + sum, 0.0);
-    state.rest = vec4f(sum - (state.position.xyz - given.position.xyz), 0.0);
+    let whole = round(sum / unit) * unit;
+    state.position += vec4f(whole, 0.0);
+    state.rest = vec4f(sum - whole, 0.0);
     return state;
 }
 

@@ -121,12 +121,19 @@ static void motion_of(const WeirWorld *world, const WeirSolid *solid, double tim
     weir_motion_at(rows_of(world, solid), solid->motion_count, solid->motion_repeats, time, now);
 }
 
-// Compensated (Kahan, Commun. ACM 8, 1965): 900 m from the origin float32 knows 0.06 mm, and a step is less.
+// 900 m from the origin float32 knows 0.06 mm, and a step is less. So the position moves by whole units, twice what float32 tells
+// apart there, and the rest waits. (Kahan's sum is shorter, but some drivers of the GPU take (a + b) - a for b.)
 static void move_by(WeirSolidState *state, int axis, float way)
 {
-    float before = state->position[axis], sum = state->rest[axis] + way;
-    state->position[axis] = before + sum;
-    state->rest[axis] = sum - (state->position[axis] - before);
+    union {
+        float number;
+        uint32_t bits;
+    } unit = {state->position[axis]};
+    unit.bits &= 0x7f800000u;
+    unit.bits = (unit.bits > 0x20000000u ? unit.bits : 0x20000000u) - (22u << 23);
+    float sum = state->rest[axis] + way, whole = rintf(sum / unit.number) * unit.number;
+    state->position[axis] += whole;
+    state->rest[axis] = sum - whole;
 }
 
 static void place_driven(const WeirWorld *world, const WeirSolid *solid, double time, WeirSolidState *state)
