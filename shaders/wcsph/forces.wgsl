@@ -7,8 +7,7 @@
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
 // out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; density_rate, if none
 //      follows. kicked, of particles of free bodies: force of contact; its second copy: force of the fluid, and how much of it
-//      is around, kg. control: maxima,
-//      where the next step finds the particles
+//      is around, kg. control: maxima, where the next step finds the particles
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
 @group(0) @binding(BINDING_density_rate) var<storage, read_write> density_rate: array<f32>;
 

@@ -65,8 +65,7 @@ typedef struct WeirSolidState {
     float force[4];  // of the fluid on the solid, last step, N (per metre of depth in 2D); [3]: of a free
                      // body, mass of the fluid that it drags along, kg
     float torque[4]; // of the fluid about the reference point, N m
-    float rest
-        [4]; // what float32 leaves out of the position, m: far from the origin steps are smaller than that
+    float rest[4];   // what float32 leaves out of the position, m
 } WeirSolidState;
 
 // One row of a prescribed motion, relative to the start. Between rows: cubic Hermite interpolation.

@@ -441,8 +441,8 @@ static void motions_become_tables(void **state)
     weir_scene_destroy(scene);
 }
 
-// Of fluid that a body drags along what it weighs itself is left out; a body that weighs less starts slower, by force, gravity and
-// torque alike, so that what is in balance stays so, and without fluid around it falls freely.
+// A body that weighs less than the fluid that it drags along starts slower, by force, gravity and torque alike, so that what is in
+// balance stays so; one that weighs more, or has no fluid around it, moves freely.
 static void light_bodies_start_slower(void **state)
 {
     (void)state;
