@@ -76,7 +76,7 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
                     / (r * constants.sound_speed);
                 let bounded = min(push, share * (pace * overlap + max(approach, 0.0)));
                 let rate = min(BRAKE_STRENGTH / parameters.courant * near, share);
-                let bulk = bulk_of(select(u32(other.w), u32(own.w), solid));
+                let bulk = min(bulk_of(select(u32(other.w), u32(own.w), solid)), 1.0);
                 sum += (bulk * (bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
             }
         }

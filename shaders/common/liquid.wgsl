@@ -66,9 +66,11 @@ fn way_length(way: Place) -> u32 {
     return u32(min(ceil(length(Vector(way))), 1e8)) + 1u;
 }
 
-// Coordinate of a place that is `away` metres from the origin, not wrapped.
+// Coordinate of a place that is `away` metres from the origin, however far along periodic axes.
 fn coordinate_of(away: vec3f) -> Place {
-    let steps = round(vector_of(vec4f(away, 0.0)) * constants.inverse_quantum);
+    let period = Vector(periods());
+    var steps = vector_of(vec4f(away, 0.0)) * constants.inverse_quantum;
+    steps = round(steps - period * floor(steps / max(period, Vector(1.0))));
     return select(Place(0), Place(steps), abs(steps) < Vector(2e9));
 }
 

@@ -7,9 +7,10 @@
 // States at the start of the world's solids.
 void weir_solids_start(const WeirWorld *world, WeirSolidState *states);
 
-// Share of a fluid particle's mass that each particle in a solid's face may stand for where solids or a solid and fluid repel each
-// other: 1 but for light and small free bodies, which a particle's force would throw (docs/wcsph.md, "Light bodies").
-float weir_solid_bulk(const WeirSolid *solid, uint32_t dimension, float particle_mass);
+// Fluid particles whose mass each particle in a solid's face may stand for where solids repel each other (the lighter one's counts), and
+// with 1 at most where a solid and fluid do: less than 1 for light and small free bodies, which the force of a particle would throw, more for
+// heavy ones, which it would not stop, FLT_MAX for walls and driven bodies (docs/wcsph.md, "Contact of solids").
+float weir_solid_bulk(const WeirSolid *solid, uint32_t dimension, float particle_mass, float spacing);
 
 // Of the fluid in reach of a free body's particles, the share that counts as dragged along with it.
 #define WEIR_DRAGGED_SHARE 0.5f

@@ -96,10 +96,12 @@ void weir_gpu_wcsph_free_world(WeirWcsphGpu *solver)
 
 // ---- What stays ----
 
-// A place in metres as whole quanta, once, in double precision.
+// A place in metres as whole quanta, once, in double precision; along periodic axes within the domain.
 static int32_t coordinate_of(const WeirConstants *constants, double place, uint32_t axis)
 {
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     double away = rint((place - (double)constants->origin[axis]) / (double)constants->quantum);
+    if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
     return fabs(away) < 2e9 ? (int32_t)away : 0; // NaN too
 }
 
@@ -160,13 +162,6 @@ typedef struct State {
     uint32_t *id;
 } State;
 
-static int32_t wrapped(int32_t place, uint32_t period)
-{
-    if (period == 0) return place;
-    int32_t p = (int32_t)period;
-    return place < 0 ? place + p : place >= p ? place - p : place;
-}
-
 static void set_local_place(WeirWcsphGpu *solver, const WeirParticles *particles, uint32_t i, uint32_t group)
 {
     const WeirConstants *constants = &solver->common.constants;
@@ -180,15 +175,13 @@ static void set_local_place(WeirWcsphGpu *solver, const WeirParticles *particles
 static void set_particle(WeirWcsphGpu *solver, const WeirParticles *particles, uint32_t i, const State *state)
 {
     const WeirConstants *constants = &solver->common.constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     uint32_t dimension = constants->dimension;
     uint32_t group = particles->group ? particles->group[i] : WEIR_GROUP_FLUID;
     memset(state->coordinate[i], 0, sizeof state->coordinate[i]);
     memset(state->motion[i], 0, sizeof state->motion[i]);
     for (uint32_t axis = 0; axis < dimension; ++axis) {
         size_t k = (size_t)dimension * i + axis;
-        int32_t place = coordinate_of(constants, particles->position[k], axis);
-        state->coordinate[i][axis] = wrapped(place, periods[axis]);
+        state->coordinate[i][axis] = coordinate_of(constants, particles->position[k], axis);
         state->motion[i][axis] = particles->velocity[k];
     }
     state->coordinate[i][3] = (int32_t)group;
@@ -205,7 +198,6 @@ static void set_particle(WeirWcsphGpu *solver, const WeirParticles *particles, u
 static void place_solids(const WeirWcsphGpu *solver, const WeirSolidState *states, const State *state)
 {
     const WeirConstants *constants = &solver->common.constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     for (uint32_t i = constants->first_solid; i < constants->particle_count; ++i) {
         uint32_t n = (uint32_t)state->coordinate[i][3] - WEIR_GROUP_SOLID;
         if (solver->world.solids[n].kind == WEIR_SOLID_FIXED) continue;
@@ -214,7 +206,7 @@ static void place_solids(const WeirWcsphGpu *solver, const WeirSolidState *state
         weir_solid_point(&states[n], solver->local_place + 4 * (size_t)(i - constants->first_solid), place,
                          velocity);
         for (uint32_t axis = 0; axis < constants->dimension; ++axis)
-            state->coordinate[i][axis] = wrapped(coordinate_of(constants, place[axis], axis), periods[axis]);
+            state->coordinate[i][axis] = coordinate_of(constants, place[axis], axis);
     }
 }
 
@@ -239,7 +231,8 @@ static bool write_solid_table(WeirWcsphGpu *solver)
     for (uint32_t n = 0; n < count; ++n) {
         table[n] = solver->world.solids[n];
         table[n].position[3] = radius_of(solver, &table[n]);
-        table[n].freedom[3] = weir_solid_bulk(&table[n], constants->dimension, constants->particle_mass);
+        table[n].freedom[3] = weir_solid_bulk(&table[n], constants->dimension, constants->particle_mass,
+                                              solver->common.parameters.particle_spacing);
     }
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_solid_table, table, count * sizeof *table);
     free(table);

@@ -174,3 +174,20 @@ WeirScene *weir_test_everything(uint32_t dimension)
     weir_test_box_of(scene, "drains[0]", (double[]){-2.3, 7.1, 1}, (double[]){-2.1, 7.3, 1.36});
     return scene;
 }
+
+WeirScene *weir_test_tank(uint32_t dimension, double width, double height, double spacing)
+{
+    WeirScene *scene = weir_scene_create();
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "method", "wcsph"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "dimension", dimension), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, (double[]){0, 0, 0}, (double[]){width, height, height}),
+                WEIR_OK);
+    weir_test_set(scene, "particle_spacing", spacing);
+    return scene;
+}
+
+void weir_test_fill(WeirScene *scene, double x0, double x1, double height)
+{
+    CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){x0, 0, 0}, (double[]){x1, height, height}, NULL),
+                WEIR_OK);
+}

@@ -40,3 +40,7 @@ WeirScene *weir_test_drops(void);
 void weir_test_box_of(WeirScene *scene, const char *piece, const double min[3], const double max[3]);
 // `wcsph` away from the origin: fluid that falls over a wall, a body named "body", an emitter above a drain.
 WeirScene *weir_test_everything(uint32_t dimension);
+// `wcsph` in a domain [0, width] x [0, height] (x [0, height]), with the default gravity; no fluid yet.
+WeirScene *weir_test_tank(uint32_t dimension, double width, double height, double spacing);
+// Fluid on its ground from x0 to x1, up to `height`, in 3D as deep as that.
+void weir_test_fill(WeirScene *scene, double x0, double x1, double height);

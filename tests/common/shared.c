@@ -8,14 +8,14 @@
 
 extern const WeirSharedGroup weir_shared_lattice, weir_shared_neighbors, weir_shared_conservation,
     weir_shared_motion, weir_shared_walls, weir_shared_trouble, weir_shared_diagnostics,
-    weir_shared_lifecycle, weir_shared_tools, weir_shared_terms, weir_shared_flow, weir_shared_emitters,
-    weir_shared_probes;
+    weir_shared_lifecycle, weir_shared_tools, weir_shared_terms, weir_shared_flow, weir_shared_rigid,
+    weir_shared_emitters, weir_shared_probes;
 
 static const WeirSharedGroup *const groups[] = {
     &weir_shared_lattice, &weir_shared_neighbors, &weir_shared_conservation, &weir_shared_motion,
     &weir_shared_walls,   &weir_shared_trouble,   &weir_shared_diagnostics,  &weir_shared_lifecycle,
     &weir_shared_tools,   &weir_shared_terms,     &weir_shared_flow,         &weir_shared_emitters,
-    &weir_shared_probes,
+    &weir_shared_probes,  &weir_shared_rigid,
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 

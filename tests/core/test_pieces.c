@@ -464,11 +464,18 @@ static void light_bodies_start_slower(void **state)
         CHECK_NEAR(now.angular_velocity[2], 0.5 * 3 * cases[n].share, 1e-6);
     }
     // 100 particles are 10 wide in 2D, 5 in 3D; across a face two pairs each.
-    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f), 2 / (2 * 10 * 0.5), 1e-6);
-    CHECK_NEAR(weir_solid_bulk(&solid, 3, 0.5f), 2 / (2 * 25 * 0.5), 1e-6);
-    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.01f), 1, 0);
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f, 0.1f), 2 / (2 * 10 * 0.5), 1e-6);
+    CHECK_NEAR(weir_solid_bulk(&solid, 3, 0.5f, 0.1f), 2 / (2 * 25 * 0.5), 1e-6);
+    // A square of 100 heavy particles counts as a rod of 14, a plate of 2 by 50 as one of 50, a cube's face as 3 times as large.
+    solid.inverse_inertia[2][2] = 6 / (2 * 1.0f);
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.01f, 0.1f), 2 / (2 * 14.142 * 0.01), 1e-3);
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.09f, 0.1f), 1, 0);
+    solid.inverse_inertia[2][2] = 12 / (2 * 25.0f);
+    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.01f, 0.1f), 2 / (2 * 50 * 0.01), 1e-3);
+    for (int axis = 0; axis < 3; ++axis) solid.inverse_inertia[axis][axis] = 6 / (2 * 0.2154f);
+    CHECK_NEAR(weir_solid_bulk(&solid, 3, 0.01f, 0.1f), 2 / (2 * 3 * 21.54 * 0.01), 1e-2);
     solid.kind = WEIR_SOLID_DRIVEN;
-    CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f), 1, 0);
+    assert_true(weir_solid_bulk(&solid, 2, 0.5f, 0.1f) > 1e30f);
 }
 
 static void emitters_have_points_and_slots(void **state)

@@ -290,7 +290,8 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes overlap = weir_lanes_max(range - r, zero) * (own->barrier_pace / spacing);
     push = weir_lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
     near = weir_lanes_min(near, weir_lanes_fill(share));
-    push = (push + near * weir_lanes_max(approach - brake_limit, zero)) * (own->bulk * data->bulk[j]);
+    push = (push + near * weir_lanes_max(approach - brake_limit, zero)) *
+           weir_lanes_min(own->bulk * data->bulk[j], weir_lanes_fill(1.0f));
     add_scaled(sum, push / r, x, variant);
 }
 

@@ -168,8 +168,9 @@ void weir_wcsph_set_particles(WeirWcsph *solver, const WeirParticles *particles)
     for (uint32_t i = 0; i < solver->constants.particle_count; ++i) set_particle(solver, particles, i);
     weir_solids_start(&solver->world, solver->solids);
     for (uint32_t n = 0; n < solver->world.solid_count; ++n)
-        solver->bulk[n] = weir_solid_bulk(&solver->world.solids[n], solver->constants.dimension,
-                                          solver->constants.particle_mass);
+        solver->bulk[n] =
+            weir_solid_bulk(&solver->world.solids[n], solver->constants.dimension,
+                            solver->constants.particle_mass, solver->parameters.particle_spacing);
     if (solver->has_moving_solids) weir_wcsph_place_solids(solver, &solver->state);
     memset(solver->emitters, 0, (solver->world.emitter_count + 1) * sizeof *solver->emitters);
     solver->clock = (WeirWcsphClock){0};
