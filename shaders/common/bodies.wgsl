@@ -208,9 +208,7 @@ fn gyroscopic(n: u32, state: SolidState) -> vec3f {
     return cross(state.angular_velocity.xyz, rotate(state.orientation, momentum));
 }
 
-// WEIR_DRAGGED_SHARE: of the fluid in reach of a free body's particles, what counts as dragged along with it, in state.force.w.
-const DRAGGED_SHARE = 0.5;
-
+// state.force.w: the mass of the fluid in reach of the body's particles, which it drags along.
 fn kicked_free(n: u32, given: SolidState, force: vec3f, torque: vec3f, dt: f32) -> SolidState {
     var state = given;
     let alpha = apply_inverse_inertia(n, state, torque - gyroscopic(n, state));
@@ -251,6 +249,16 @@ fn moved_by(given: SolidState, way: vec3f) -> SolidState {
     return state;
 }
 
+// Out of the domain by half of its longest side: there a body stays.
+fn has_left(state: SolidState) -> bool {
+    let low = constants.domain_min.xyz;
+    let high = constants.domain_max.xyz;
+    let away = max(low - state.position.xyz, state.position.xyz - high);
+    let outside = select(away, vec3f(0.0), vec3<bool>(PERIODIC_X, PERIODIC_Y, PERIODIC_Z));
+    let sides = high - low;
+    return max(max(outside.x, outside.y), outside.z) > 0.5 * max(max(sides.x, sides.y), sides.z);
+}
+
 // After a move over `dt`, half a step, that ends at `time`.
 fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState {
     var state = given;
@@ -263,6 +271,9 @@ fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState 
         state.rest = vec4f(0.0);
         state = moved_by(state, pose.displacement);
         state.orientation = rotation_quaternion(pose.rotation);
+    } else if solid_table[n].kind == SOLID_FREE && has_left(state) {
+        state.velocity = vec4f(0.0);
+        state.angular_velocity = vec4f(0.0);
     } else if solid_table[n].kind == SOLID_FREE {
         state = moved_by(state, dt * state.velocity.xyz);
         state.orientation = turned(state.orientation, state.angular_velocity.xyz, dt);

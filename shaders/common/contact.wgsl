@@ -26,9 +26,17 @@ fn motion_of_solid(group: u32, place: Place) -> vec3f {
     return solid_state[NOW + n].velocity.xyz + cross(solid_state[NOW + n].angular_velocity.xyz, arm);
 }
 
-// What a particle in its face may stand for, in particles of fluid (weir_solid_bulk()): 1, or less in a light body.
+// What a particle in its face may stand for, in particles of fluid (weir_solid_bulk()): less than 1 in a light body.
 fn bulk_of(group: u32) -> f32 {
     return solid_table[group - GROUP_SOLID].freedom.w;
+}
+
+// The same between it and fluid (weir_solid_barrier()).
+fn barrier_bulk(group: u32) -> f32 {
+    let n = group - GROUP_SOLID;
+    let dragged = solid_state[NOW + n].force.w;
+    let mass = solid_table[n].mass;
+    return min(bulk_of(group) * select(1.0, dragged / mass, dragged > mass), 1.0);
 }
 
 // With what its surface slides.
@@ -76,7 +84,7 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
                     / (r * constants.sound_speed);
                 let bounded = min(push, share * (pace * overlap + max(approach, 0.0)));
                 let rate = min(BRAKE_STRENGTH / parameters.courant * near, share);
-                let bulk = min(bulk_of(select(u32(other.w), u32(own.w), solid)), 1.0);
+                let bulk = barrier_bulk(select(u32(other.w), u32(own.w), solid));
                 sum += (bulk * (bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
             }
         }

@@ -71,7 +71,7 @@ fn coordinate_of(away: vec3f) -> Place {
     let period = Vector(periods());
     var steps = vector_of(vec4f(away, 0.0)) * constants.inverse_quantum;
     steps = round(steps - period * floor(steps / max(period, Vector(1.0))));
-    return select(Place(0), Place(steps), abs(steps) < Vector(2e9));
+    return Place(clamp(steps, Vector(-2e9), Vector(2e9)));
 }
 
 // Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the

@@ -27,7 +27,7 @@ fn kicked_solid(n: u32) -> SolidState {
         }
     }
     // Contact moves the body, but the force that is told is the fluid's.
-    state.force = vec4f(sums[0].xyz, DRAGGED_SHARE * sums[0].w);
+    state.force = sums[0];
     state.torque = sums[1];
     state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.dt);
     let acceleration = length(state.acceleration.xyz);

@@ -48,10 +48,18 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector
     (*sums).moment += (w * (parameters.rest_density + fluid.w)) * offset;
 }
 
-// Velocity and acceleration of solid `n` at a particle: a + alpha x r + w x (w x r).
+// Velocity and acceleration of solid `n` at a particle: sway (a + alpha x r) + w x (w x r).
 struct WallMotion {
     velocity: vec3f,
     acceleration: vec3f,
+}
+
+// weir_solid_sway()
+const CALM = 6.0; // times what is dragged
+
+fn sway_of(n: u32, state: SolidState) -> f32 {
+    let dragged = state.force.w;
+    return select(1.0, min(max(solid_table[n].mass, dragged) / (CALM * dragged), 1.0), dragged > 0.0);
 }
 
 fn wall_motion(n: u32, particle: u32) -> WallMotion {
@@ -63,7 +71,7 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
     let arm = rotate(state.orientation, solid_particle[particle].start);
     let spin = cross(state.angular_velocity.xyz, arm);
     return WallMotion(state.velocity.xyz + spin + surface,
-                      state.acceleration.xyz + cross(state.angular_acceleration.xyz, arm)
+                      sway_of(n, state) * (state.acceleration.xyz + cross(state.angular_acceleration.xyz, arm))
                           + cross(state.angular_velocity.xyz, spin));
 }
 

@@ -241,6 +241,19 @@ float weir_solid_bulk(const WeirSolid *solid, uint32_t dimension, float particle
     return fmaxf(most / fmaxf(face, longest), 1.0f);
 }
 
+float weir_solid_barrier(const WeirSolid *solid, const WeirSolidState *state, float bulk)
+{
+    float dragged = state->force[3];
+    return fminf(1.0f, dragged > solid->mass ? bulk * (dragged / solid->mass) : bulk);
+}
+
+float weir_solid_sway(const WeirSolid *solid, const WeirSolidState *state)
+{
+    static const float calm = 6.0f; // times what is dragged
+    float dragged = state->force[3];
+    return dragged > 0.0f ? fminf(1.0f, fmaxf(solid->mass, dragged) / (calm * dragged)) : 1.0f;
+}
+
 static void kick_free(const WeirSolid *solid, const float gravity[4], float dt, WeirSolidState *state)
 {
     float torque[3], spin[3], alpha[3];
@@ -288,12 +301,33 @@ void weir_solids_kick(const WeirWorld *world, const float gravity[4], double tim
     }
 }
 
-void weir_solids_drift(const WeirWorld *world, double time, float dt, WeirSolidState *states)
+// Out of the domain by half of its longest side: there a body stays. It would fall for ever, faster each step, and all steps
+// would be shorter for it, until no coordinate could tell where it is.
+static bool has_left(const WeirConstants *constants, const WeirSolidState *state)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    float longest = 0.0f, outside = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        float low = constants->domain_min[axis], high = constants->domain_max[axis];
+        longest = fmaxf(longest, high - low);
+        if (periods[axis] == 0)
+            outside = fmaxf(outside, fmaxf(low - state->position[axis], state->position[axis] - high));
+    }
+    return outside > 0.5f * longest;
+}
+
+void weir_solids_drift(const WeirWorld *world, const WeirConstants *constants, double time, float dt,
+                       WeirSolidState *states)
 {
     for (uint32_t n = 0; n < world->solid_count; ++n) {
         const WeirSolid *solid = &world->solids[n];
         if (is_driven(solid)) place_driven(world, solid, time, &states[n]);
         if (solid->kind != WEIR_SOLID_FREE) continue;
+        if (has_left(constants, &states[n])) {
+            memset(states[n].velocity, 0, sizeof states[n].velocity);
+            memset(states[n].angular_velocity, 0, sizeof states[n].angular_velocity);
+            continue;
+        }
         for (int axis = 0; axis < 3; ++axis) move_by(&states[n], axis, dt * states[n].velocity[axis]);
         turn(states[n].orientation, states[n].angular_velocity, dt);
     }

@@ -102,7 +102,7 @@ static int32_t coordinate_of(const WeirConstants *constants, double place, uint3
     const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     double away = rint((place - (double)constants->origin[axis]) / (double)constants->quantum);
     if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
-    return fabs(away) < 2e9 ? (int32_t)away : 0; // NaN too
+    return (int32_t)fmin(fmax(away, -2e9), 2e9); // NaN too
 }
 
 // Where an emitter's particles are born: one support radius upstream of their points of the nozzle.

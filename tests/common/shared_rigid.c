@@ -108,6 +108,28 @@ static void light_bodies_stay_calm(const WeirBackend *backend)
     }
 }
 
+// A plate that weighs nothing against the fluid it spins in comes to rest and rises. (It swung to and fro, faster each time, up to 27 m/s:
+// the pressure at its surface followed from its own acceleration of the step before.)
+static void a_plate_without_weight_comes_to_rest(const WeirBackend *backend)
+{
+    WeirScene *scene = weir_test_tank(2, 1, 0.7, 0.02);
+    weir_test_set(scene, "support_radius", 0.05);
+    weir_test_set(scene, "rest_density", 13600);
+    weir_test_fill(scene, 0, 1, 0.35);
+    weir_test_box_of(scene, "bodies[0].box", (double[]){0.3549, 0.1298, 0}, (double[]){0.6451, 0.1702, 0});
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 1), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].velocity", (double[]){-1.1, 1.1}, 2),
+                WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].angular_velocity", 14), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, backend, 0);
+    for (double time = 0.05; time < 0.26; time += 0.05) {
+        CHECK_SIM(sim, weir_sim_run_until(sim, time), WEIR_OK);
+        assert_true(weir_test_diagnose(sim, 0).max_speed < 4);
+    }
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 // Least y of the last body's particles, in 2D.
 static double lowest_of_last_body(WeirSim *sim)
 {
@@ -242,12 +264,42 @@ static void bodies_go_around_a_periodic_domain(const WeirBackend *backend)
     weir_scene_destroy(scene);
 }
 
+// A body that leaves through an open side stays where it is when it is far away, in one piece. (It fell for ever, ever faster.)
+static void a_body_that_leaves_comes_to_rest(const WeirBackend *backend)
+{
+    WeirScene *scene = weir_test_tank(2, 0.4, 0.4, 0.02);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.open", "+x"), WEIR_OK);
+    weir_test_fill(scene, 0, 0.1, 0.04);
+    weir_test_box_of(scene, "bodies[0].box", (double[]){0.26, 0.2, 0}, (double[]){0.36, 0.3, 0});
+    CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].velocity", (double[]){2, 0}, 2), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 700), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].angular_velocity", 5), WEIR_OK);
+    WeirSim *sim = weir_test_sim(scene, backend, 0);
+    uint32_t last = weir_sim_particle_count(sim) - 1;
+    float *start = weir_test_read(sim, WEIR_FIELD_POSITION), *end[2];
+    for (int n = 0; n < 2; ++n) {
+        CHECK_SIM(sim, weir_sim_run_until(sim, 0.3 + 0.1 * n), WEIR_OK);
+        end[n] = weir_test_read(sim, WEIR_FIELD_POSITION);
+        assert_true(end[n][2 * last] > 0.5f && end[n][2 * last] < 0.7f);
+    }
+    for (uint32_t k = 2 * (last - 24); k < 2 * last + 2; ++k) CHECK_NEAR(end[1][k], end[0][k], 0);
+    CHECK_NEAR(hypotf(end[1][2 * last] - end[1][2 * last - 2], end[1][2 * last + 1] - end[1][2 * last - 1]),
+               hypotf(start[2 * last] - start[2 * last - 2], start[2 * last + 1] - start[2 * last - 1]),
+               1e-5);
+    free(start);
+    for (int n = 0; n < 2; ++n) free(end[n]);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+}
+
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_body_gets_what_the_fluid_loses),
     WEIR_SHARED_TEST(bodies_sink_to_the_ground),
     WEIR_SHARED_TEST(bodies_fall_alike_far_from_the_origin),
     WEIR_SHARED_TEST(light_bodies_stay_calm),
+    WEIR_SHARED_TEST(a_plate_without_weight_comes_to_rest),
     WEIR_SHARED_TEST(heavy_bodies_stay_above_the_ground),
     WEIR_SHARED_TEST(bodies_go_around_a_periodic_domain),
+    WEIR_SHARED_TEST(a_body_that_leaves_comes_to_rest),
 };
 WEIR_SHARED_GROUP(rigid, tests);

@@ -463,6 +463,15 @@ static void light_bodies_start_slower(void **state)
         CHECK_NEAR(now.velocity[1], 0, 1e-6); // force and weight are in balance
         CHECK_NEAR(now.angular_velocity[2], 0.5 * 3 * cases[n].share, 1e-6);
     }
+    // Between it and fluid it counts with what it drags along, 1 at most; its surface sees all of its acceleration where that is little.
+    const WeirSolidState light = {.force = {0, 0, 0, 8}}, heavy = {.force = {0, 0, 0, 0.25f}},
+                         dry = {.force = {0}};
+    CHECK_NEAR(weir_solid_barrier(&solid, &light, 0.1f), 0.4, 1e-6);
+    CHECK_NEAR(weir_solid_barrier(&solid, &light, 0.5f), 1, 0);
+    CHECK_NEAR(weir_solid_barrier(&solid, &heavy, 0.1f), 0.1f, 0);
+    CHECK_NEAR(weir_solid_sway(&solid, &light), 1 / 6.0, 1e-6);
+    CHECK_NEAR(weir_solid_sway(&solid, &heavy), 1, 0);
+    CHECK_NEAR(weir_solid_sway(&solid, &dry), 1, 0);
     // 100 particles are 10 wide in 2D, 5 in 3D; across a face two pairs each.
     CHECK_NEAR(weir_solid_bulk(&solid, 2, 0.5f, 0.1f), 2 / (2 * 10 * 0.5), 1e-6);
     CHECK_NEAR(weir_solid_bulk(&solid, 3, 0.5f, 0.1f), 2 / (2 * 25 * 0.5), 1e-6);

@@ -100,12 +100,13 @@ static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
     for (uint32_t k = begin; k < end; ++k) {
         uint32_t group = solver->sorted.group[k];
         data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
-        data->stick[k] = data->bulk[k] = 1.0f;
+        data->stick[k] = data->barrier[k] = 1.0f;
         data->needs_force[k] = 0.0f;
         if (!weir_group_is_solid(group)) continue;
         const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
         data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
-        data->bulk[k] = solver->bulk[group - WEIR_GROUP_SOLID];
+        data->barrier[k] = weir_solid_barrier(solid, &solver->solids[group - WEIR_GROUP_SOLID],
+                                              solver->bulk[group - WEIR_GROUP_SOLID]);
         data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
     }
 }

@@ -152,7 +152,8 @@ void weir_wcsph_drift(WeirWcsph *solver)
     solver->clock.lost_particles += drift.lost;
     if (solver->has_moving_solids) {
         float half = 0.5f * solver->dt;
-        weir_solids_drift(&solver->world, solver->clock.time + half, half, solver->solids);
+        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + half, half,
+                          solver->solids);
         weir_wcsph_place_solids(solver, &solver->state);
     }
     if (solver->has_emitters) weir_wcsph_emit(solver);
@@ -335,7 +336,8 @@ void weir_wcsph_finish(WeirWcsph *solver)
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, finish_chunk, solver);
     if (solver->has_moving_solids) {
         float half = 0.5f * solver->dt;
-        weir_solids_drift(&solver->world, solver->clock.time + solver->dt, half, solver->solids);
+        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + solver->dt, half,
+                          solver->solids);
         weir_wcsph_place_solids(solver, &solver->sorted);
     }
     WeirWcsphParticles sorted = solver->sorted;

@@ -237,7 +237,7 @@ typedef struct ForceLanes {
     float second_half_in_supports;               // 3/2 of second_half, in supports
     float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
-    WeirLanes support2, stick, bulk, barrier_reach, pressure;
+    WeirLanes support2, stick, barrier, barrier_reach, pressure;
     Vector seen_velocity, velocity;
 } ForceLanes;
 
@@ -265,7 +265,7 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
             weir_lanes_fill(1.00001f * spacing * (barrier_range > brake_range ? barrier_range : brake_range)),
         .support2 = weir_lanes_fill(1.0f / (constants->inverse_support * constants->inverse_support)),
         .stick = weir_lanes_load(data->stick + begin),
-        .bulk = weir_lanes_load(data->bulk + begin),
+        .barrier = weir_lanes_load(data->barrier + begin),
         .pressure = weir_lanes_load(data->pressure + begin),
         .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
         .velocity = load(data->velocity, begin, variant),
@@ -290,8 +290,7 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
     WeirLanes overlap = weir_lanes_max(range - r, zero) * (own->barrier_pace / spacing);
     push = weir_lanes_min(push, share * (overlap + weir_lanes_max(approach, zero)));
     near = weir_lanes_min(near, weir_lanes_fill(share));
-    push = (push + near * weir_lanes_max(approach - brake_limit, zero)) *
-           weir_lanes_min(own->bulk * data->bulk[j], weir_lanes_fill(1.0f));
+    push = (push + near * weir_lanes_max(approach - brake_limit, zero)) * (own->barrier * data->barrier[j]);
     add_scaled(sum, push / r, x, variant);
 }
 

@@ -18,7 +18,7 @@ typedef struct WeirWcsphData {
     const float *velocity[3]; // m/s, at the start of the step
     float *is_fluid;          // 1 fluid, 0 solid
     float *stick;             // 1 fluid and no-slip solids, 0 free-slip solids
-    float *bulk;              // of solids: weir_solid_bulk(); of fluid 1
+    float *barrier;           // of solids: weir_solid_barrier(); of fluid 1
     float *needs_force;       // solids: 1 if the force on the particle is wanted
     float *excess;            // density less rest density, kg/m^3; of solids: of their extrapolated pressure
     float *inverse_density;   // m^3/kg

@@ -76,7 +76,7 @@ static void places_chunk(void *context, uint32_t begin, uint32_t end)
         for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
             double away = rint((place[axis] - constants->origin[axis]) / constants->quantum);
             if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
-            target->particles->x[axis][i] = fabs(away) < 2e9 ? (int32_t)away : 0;
+            target->particles->x[axis][i] = (int32_t)fmin(fmax(away, -2e9), 2e9);
         }
     }
 }
@@ -115,7 +115,9 @@ static void acceleration_at(const WeirWcsph *solver, uint32_t i, uint32_t group,
     cross(state->angular_acceleration, arm, swing);
     cross(state->angular_velocity, arm, spin);
     cross(state->angular_velocity, spin, pull);
-    for (int axis = 0; axis < 3; ++axis) a[axis] = state->acceleration[axis] + swing[axis] + pull[axis];
+    float sway = weir_solid_sway(solid_of(solver, group), state);
+    for (int axis = 0; axis < 3; ++axis)
+        a[axis] = sway * (state->acceleration[axis] + swing[axis]) + pull[axis];
 }
 
 static void walls_chunk(void *context, uint32_t begin, uint32_t end)
@@ -155,6 +157,11 @@ void weir_wcsph_walls(WeirWcsph *solver)
 
 // ---- Forces on solids ----
 
+static float bulk_of(const WeirWcsph *solver, uint32_t i)
+{
+    return solver->bulk[solver->sorted.group[i] - WEIR_GROUP_SOLID];
+}
+
 // Penalty contact of sorted particle i, of a free body, with the particles of other solids closer than one spacing:
 // stiff as the fluid, half damped, less so if either is light.
 static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
@@ -183,7 +190,7 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
             if (r2 >= spacing * spacing || r2 == 0.0f) continue;
             float r = sqrtf(r2), push = stiffness * (spacing - r) - damping * approach / r;
             if (push <= 0.0f) continue;
-            push *= fminf(data->bulk[i], data->bulk[j]);
+            push *= fminf(bulk_of(solver, i), bulk_of(solver, j));
             for (int axis = 0; axis < 3; ++axis) force[axis] += push * x[axis] / r;
         }
     }
@@ -214,7 +221,7 @@ static float dragged_mass(const WeirWcsph *solver, const WeirSolid *solid)
 {
     double sum = 0.0;
     for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)[6];
-    return (float)(WEIR_DRAGGED_SHARE * sum);
+    return (float)sum;
 }
 
 // Sums columns [0, 3) (fluid) or [3, 6) (contact) of the particles' forces in order of id, in double precision.

@@ -45,7 +45,7 @@ static bool make_sums(WeirWcsph *solver, size_t size)
     }
     data->is_fluid = next, next += size;
     data->stick = next, next += size;
-    data->bulk = next, next += size;
+    data->barrier = next, next += size;
     data->needs_force = next;
     return true;
 }
