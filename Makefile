@@ -32,10 +32,10 @@ validate: ## run the published cases, compare with their references, write build
 	@tools/build.sh native
 	@tools/validate.sh $(RESOLUTION)
 
-stress: ## run random scenes of wcsph and tell which blow up (SCENES=100, SEED=1, BACKEND=auto|cpu|gpu); they stay in build/stress
+stress: ## run random scenes of wcsph and tell which blow up (SCENES=100, SEED=1, BACKEND=auto|cpu|gpu, or COMPARE=steps: CPU with GPU); they stay in build/stress
 	@tools/setup.sh native
 	@tools/build.sh native
-	@/usr/bin/python3 -B tools/stress.py --scenes $(SCENES) --seed $(SEED) --backend $(BACKEND)
+	@/usr/bin/python3 -B tools/stress.py --scenes $(SCENES) --seed $(SEED) --backend $(BACKEND) $(if $(COMPARE),--compare $(COMPARE))
 
 docs: ## write docs/parameters.md, scene_keys.md and scene.schema.json anew from the lists in the core
 	@tools/setup.sh native

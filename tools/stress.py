@@ -2,13 +2,17 @@
 """Random scenes of `wcsph`, far from what anybody would tune: does any blow up?
 
     tools/stress.py [--scenes N] [--seed S] [--time T] [--particles N] [--backend auto|cpu|gpu] [--weir FILE] [--jobs N]
+    tools/stress.py --compare STEPS ...
 
 Pools, columns and drops in tanks near and far from the origin, periodic or open; bodies from foam to lead, some two particles
 thin; paddles, hills, jets and drains; all kernels, supports and equations of state. A scene that `weir run` refuses (exit status 2) is
 drawn anew. Scenes and what they ended with lie in build/stress; equal seeds draw equal scenes. Exit status 1 if a scene failed.
+--compare runs each for so many steps on the CPU and on the GPU instead; a scene fails where a particle's velocities differ by more
+than 0.01 of the speed of sound. (Places may differ by more: shifting begins at a threshold.)
 """
 import argparse
 import concurrent.futures
+import csv
 import json
 import math
 import os
@@ -169,17 +173,47 @@ def make_scene(seed, particles):
     return scene
 
 
-def run_scene(file, seed, given):
-    """Draws until the program takes it; the exit status, and what it said."""
-    for attempt in range(100):
-        file.write_text(json.dumps(make_scene(f"{seed}.{attempt}", given.particles), indent=1) + "\n")
-        command = [given.weir, "run", str(file), "--backend", given.backend, "--threads", "1", "--time", str(given.time), "--json"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 2:
-            break
+def run_weir(file, given, *options):
+    """The exit status, and what it said."""
+    command = [given.weir, "run", str(file), "--threads", "1", "--json", *options]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     file.with_suffix(".out").write_text(done.stdout + done.stderr)
     message = done.stderr.replace("\r", "\n").strip().split("\n")[-1]
     return done.returncode, message if done.returncode else json.loads(done.stdout)
+
+
+def largest_difference(one, other):
+    """Of the velocities in two dumps, m/s; infinite where a particle is fluid in one of them alone."""
+    most = 0.0
+    with open(one, encoding="ascii") as first, open(other, encoding="ascii") as second:
+        for a, b in zip(csv.DictReader(first), csv.DictReader(second), strict=True):
+            if a["id"] != b["id"] or a["group"] != b["group"]:
+                return math.inf
+            most = max([most] + [abs(float(a[v]) - float(b[v])) for v in ("vx", "vy", "vz") if v in a])
+    return most
+
+
+def compare_backends(file, given):
+    dumps = [file.with_suffix(f".{backend}.csv") for backend in ("cpu", "gpu")]
+    for backend, dump in zip(("cpu", "gpu"), dumps):
+        status, result = run_weir(file, given, "--backend", backend, "--steps", str(given.compare), "--dump", str(dump))
+        if status:
+            return status, result
+    result["difference"] = largest_difference(*dumps) / result["sound_speed"]
+    return (1, f"velocities differ by {result['difference']:.3g} c0") if result["difference"] > 0.01 else (0, result)
+
+
+def run_scene(file, seed, given):
+    """Draws until the program takes it."""
+    for attempt in range(100):
+        file.write_text(json.dumps(make_scene(f"{seed}.{attempt}", given.particles), indent=1) + "\n")
+        if given.compare:
+            status, result = compare_backends(file, given)
+        else:
+            status, result = run_weir(file, given, "--backend", given.backend, "--time", str(given.time))
+        if status != 2:
+            break
+    return status, result
 
 
 def main():
@@ -189,13 +223,14 @@ def main():
     parser.add_argument("--time", type=float, default=1, help="simulated seconds of each; 1")
     parser.add_argument("--particles", type=int, default=4000, help="of fluid, about; 4000")
     parser.add_argument("--backend", default="auto", help="auto, cpu or gpu; auto")
+    parser.add_argument("--compare", type=int, metavar="STEPS", help="compare the backends after so many steps")
     parser.add_argument("--weir", default=str(ROOT / "build" / "weir"), help="the program; build/weir")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="scenes at the same time; one per core")
     given = parser.parse_args()
     folder = ROOT / "build" / "stress"
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / f"{given.seed}-{n:03}.json" for n in range(given.scenes)]
-    failed, steps, worst = 0, 0, 0.0
+    failed, steps, worst, difference = 0, 0, 0.0, 0.0
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         results = pool.map(lambda file: run_scene(file, file.stem, given), files)
         for file, (status, result) in zip(files, results):
@@ -205,7 +240,9 @@ def main():
             else:
                 steps += result["steps"]
                 worst = max(worst, result["max_density_error"] or 0)
-    print(f"{given.scenes} random scenes, {steps:,} steps, density error {100 * worst:.1f} % at most: {failed} failed")
+                difference = max(difference, result.get("difference", 0))
+    compared = f"velocities differ by {difference:.2g} c0" if given.compare else f"density error {100 * worst:.1f} %"
+    print(f"{given.scenes} random scenes, {steps:,} steps, {compared} at most: {failed} failed")
     return failed > 0
 
 
