@@ -66,12 +66,14 @@ fn way_length(way: Place) -> u32 {
     return u32(min(ceil(length(Vector(way))), 1e8)) + 1u;
 }
 
-// Coordinate of a place that is `away` metres from the origin, however far along periodic axes.
+// weir_coordinate_of() of a place that is `away` metres from the origin.
 fn coordinate_of(away: vec3f) -> Place {
-    let period = Vector(periods());
     var steps = vector_of(vec4f(away, 0.0)) * constants.inverse_quantum;
-    steps = round(steps - period * floor(steps / max(period, Vector(1.0))));
-    return Place(clamp(steps, Vector(-2e9), Vector(2e9)));
+    if any(periodic_axes()) {
+        let period = Vector(periods());
+        steps -= period * floor(steps / max(period, Vector(1.0)));
+    }
+    return Place(clamp(round(steps), Vector(-2e9), Vector(2e9)));
 }
 
 // Way in quanta of a solid's particle, from `place` to where the solid's state has it. `start` is its place in the

@@ -153,6 +153,14 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
     constants->row_shift = (uint32_t)ilogb(fit.cell[1]);
 }
 
+int32_t weir_coordinate_of(const WeirConstants *constants, double place, uint32_t axis)
+{
+    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
+    double away = rint((place - (double)constants->origin[axis]) / (double)constants->quantum);
+    if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
+    return (int32_t)fmin(fmax(away, -2e9), 2e9); // NaN too
+}
+
 // m^3; in 2D m^2.
 static double site_volume(double spacing, uint32_t dimension)
 {

@@ -17,6 +17,10 @@ enum { WEIR_CELLS_PER_RADIUS = 4 };
 void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,
                          uint32_t particle_count, const WeirTool *tool);
 
+// `wcsph`: a place in metres as whole quanta from `origin`; along a periodic axis that of its image in the domain, along others cut at
+// 2e9, farther than the domain reaches.
+int32_t weir_coordinate_of(const WeirConstants *constants, double place, uint32_t axis);
+
 // A line is a column, row or layer of cells. Where the domain has more lines than the grid, it is folded: lines that lie
 // the grid's count apart share their cells. So what is far away may be a candidate, but never a neighbour, and memory
 // is bound to the particles wherever they are.

@@ -1,4 +1,5 @@
 // What a world is for the device: walls, bodies, emitters, drains, and the particles at the start.
+#include "core/grid.h"
 #include "core/solids.h"
 #include "gpu/wcsph.h"
 
@@ -96,15 +97,6 @@ void weir_gpu_wcsph_free_world(WeirWcsphGpu *solver)
 
 // ---- What stays ----
 
-// A place in metres as whole quanta, once, in double precision; along periodic axes within the domain.
-static int32_t coordinate_of(const WeirConstants *constants, double place, uint32_t axis)
-{
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
-    double away = rint((place - (double)constants->origin[axis]) / (double)constants->quantum);
-    if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
-    return (int32_t)fmin(fmax(away, -2e9), 2e9); // NaN too
-}
-
 // Where an emitter's particles are born: one support radius upstream of their points of the nozzle.
 static void write_nozzle(WeirWcsphGpu *solver, const WeirEmitter *emitter)
 {
@@ -118,7 +110,7 @@ static void write_nozzle(WeirWcsphGpu *solver, const WeirEmitter *emitter)
         for (uint32_t axis = 0; axis < dimension; ++axis) {
             double at = solver->world.points[(size_t)dimension * point + axis];
             double upstream = (double)constants->search_radius * (double)emitter->direction[axis];
-            places[ready - 1][axis] = coordinate_of(constants, at - upstream, axis);
+            places[ready - 1][axis] = weir_coordinate_of(constants, at - upstream, axis);
         }
         if (ready < AT_ONCE && k + 1 < emitter->point_count) continue;
         wgpuQueueWriteBuffer(solver->common.gpu->queue, nozzle, 16 * (uint64_t)(point + 1 - ready), places,
@@ -181,7 +173,7 @@ static void set_particle(WeirWcsphGpu *solver, const WeirParticles *particles, u
     memset(state->motion[i], 0, sizeof state->motion[i]);
     for (uint32_t axis = 0; axis < dimension; ++axis) {
         size_t k = (size_t)dimension * i + axis;
-        state->coordinate[i][axis] = coordinate_of(constants, particles->position[k], axis);
+        state->coordinate[i][axis] = weir_coordinate_of(constants, particles->position[k], axis);
         state->motion[i][axis] = particles->velocity[k];
     }
     state->coordinate[i][3] = (int32_t)group;
@@ -206,7 +198,7 @@ static void place_solids(const WeirWcsphGpu *solver, const WeirSolidState *state
         weir_solid_point(&states[n], solver->local_place + 4 * (size_t)(i - constants->first_solid), place,
                          velocity);
         for (uint32_t axis = 0; axis < constants->dimension; ++axis)
-            state->coordinate[i][axis] = coordinate_of(constants, place[axis], axis);
+            state->coordinate[i][axis] = weir_coordinate_of(constants, place[axis], axis);
     }
 }
 

@@ -23,14 +23,8 @@ static void bodies_sink_to_the_ground(const WeirBackend *backend)
                         WEIR_OK);
             CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].ball.radius", 0.1), WEIR_OK);
         } else {
-            CHECK_SCENE(
-                scene,
-                weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.15, 0.05, 0.1}, dimension),
-                WEIR_OK);
-            CHECK_SCENE(
-                scene,
-                weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.35, 0.15, 0.3}, dimension),
-                WEIR_OK);
+            weir_test_box_of(scene, "bodies[0].box", (double[]){0.15, 0.05, 0.1},
+                             (double[]){0.35, 0.15, 0.3});
         }
         CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 5000), WEIR_OK);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
@@ -69,10 +63,7 @@ static void bodies_fall_alike_far_from_the_origin(const WeirBackend *backend)
                     WEIR_OK);
         CHECK_SCENE(scene, weir_scene_add_box(scene, (double[]){0, y, 0}, (double[]){1, y + 0.2, 0}, NULL),
                     WEIR_OK);
-        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.4, y + 0.5}, 2),
-                    WEIR_OK);
-        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.6, y + 0.7}, 2),
-                    WEIR_OK);
+        weir_test_box_of(scene, "bodies[0].box", (double[]){0.4, y + 0.5, 0}, (double[]){0.6, y + 0.7, 0});
         CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 500), WEIR_OK);
         weir_test_set(scene, "courant", 0.1);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
@@ -90,14 +81,13 @@ static void bodies_fall_alike_far_from_the_origin(const WeirBackend *backend)
 static void light_bodies_stay_calm(const WeirBackend *backend)
 {
     static const struct {
-        double support, low[2], high[2], density;
+        double support, low[3], high[3], density;
     } light[] = {{0.08, {0.404, 0.4998}, {0.596, 0.5402}, 20}, {0.05, {0.452, 0.472}, {0.548, 0.568}, 1}};
     for (size_t n = 0; n < sizeof light / sizeof *light; ++n) {
         WeirScene *scene = weir_test_tank(2, 1, 0.7, 0.02);
         weir_test_set(scene, "support_radius", light[n].support);
         weir_test_fill(scene, 0, 1, 0.35);
-        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.min", light[n].low, 2), WEIR_OK);
-        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.max", light[n].high, 2), WEIR_OK);
+        weir_test_box_of(scene, "bodies[0].box", light[n].low, light[n].high);
         CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", light[n].density), WEIR_OK);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         CHECK_SIM(sim, weir_sim_run_until(sim, 0.45), WEIR_OK);
@@ -157,10 +147,7 @@ static void heavy_bodies_stay_above_the_ground(const WeirBackend *backend)
                         WEIR_OK);
             CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].ball.radius", 0.1), WEIR_OK);
         } else {
-            CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.2, 0.2}, 2),
-                        WEIR_OK);
-            CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.4, 0.4}, 2),
-                        WEIR_OK);
+            weir_test_box_of(scene, "bodies[0].box", (double[]){0.2, 0.2, 0}, (double[]){0.4, 0.4, 0});
         }
         CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 20000), WEIR_OK);
         CHECK_SCENE(scene, weir_scene_set_numbers(scene, "bodies[0].velocity", (double[]){0, -3}, 2),
@@ -204,12 +191,7 @@ static void a_body_gets_what_the_fluid_loses(const WeirBackend *backend)
                                        (double[]){19, 5, 3}),
                     WEIR_OK);
         CHECK_SCENE(scene, weir_scene_set_number(scene, "bodies[0].density", 1500), WEIR_OK);
-        CHECK_SCENE(scene,
-                    weir_scene_set_numbers(scene, "bodies[0].box.min", (double[]){0.75, 0.6, 0.6}, dimension),
-                    WEIR_OK);
-        CHECK_SCENE(scene,
-                    weir_scene_set_numbers(scene, "bodies[0].box.max", (double[]){0.95, 0.8, 0.8}, dimension),
-                    WEIR_OK);
+        weir_test_box_of(scene, "bodies[0].box", (double[]){0.75, 0.6, 0.6}, (double[]){0.95, 0.8, 0.8});
         double mass = 1500 * (dimension == 2 ? 0.04 : 0.008);
         WeirSim *sim = weir_test_sim(scene, backend, 0);
         WeirDiagnostics before = weir_test_diagnose(sim, 0);

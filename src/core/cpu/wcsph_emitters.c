@@ -1,7 +1,7 @@
 // Emitters: layers of particles born one support radius upstream of their nozzle, in slots that were empty.
 #include "core/cpu/wcsph.h"
+#include "core/grid.h"
 
-#include <math.h>
 #include <string.h>
 
 static double travel_of(const WeirWcsph *solver, uint32_t n, double time)
@@ -65,7 +65,7 @@ static void bear(WeirWcsph *solver, uint32_t n, uint32_t point, double way, uint
         double place = axis < constants->dimension
                            ? at[axis] + (way - (double)constants->search_radius) * emitter->direction[axis]
                            : constants->origin[axis];
-        state->x[axis][i] = (int32_t)rint((place - constants->origin[axis]) / constants->quantum);
+        state->x[axis][i] = weir_coordinate_of(constants, place, axis);
         state->velocity[axis][i] =
             axis < constants->dimension ? emitter->speed * emitter->direction[axis] : 0.0f;
     }

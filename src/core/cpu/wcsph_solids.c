@@ -65,7 +65,6 @@ static void places_chunk(void *context, uint32_t begin, uint32_t end)
     const Places *target = context;
     const WeirWcsph *solver = target->solver;
     const WeirConstants *constants = &solver->constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     for (uint32_t i = begin; i < end; ++i) {
         uint32_t group = target->particles->group[i];
         if (!weir_group_is_solid(group) || !is_moving(solid_of(solver, group))) continue;
@@ -73,11 +72,8 @@ static void places_chunk(void *context, uint32_t begin, uint32_t end)
         float v[3];
         weir_solid_point(&solver->solids[group - WEIR_GROUP_SOLID],
                          local_of(solver, target->particles->id[i]), place, v);
-        for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-            double away = rint((place[axis] - constants->origin[axis]) / constants->quantum);
-            if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
-            target->particles->x[axis][i] = (int32_t)fmin(fmax(away, -2e9), 2e9);
-        }
+        for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+            target->particles->x[axis][i] = weir_coordinate_of(constants, place[axis], axis);
     }
 }
 

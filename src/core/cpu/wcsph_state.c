@@ -1,8 +1,8 @@
 // Memory of the CPU solver of `wcsph`: its arrays, the state at the start, snapshots, and copies by id.
 #include "core/cpu/pairs.h"
 #include "core/cpu/wcsph.h"
+#include "core/grid.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -139,15 +139,11 @@ void weir_wcsph_free(WeirWcsph *solver)
 static void set_particle(WeirWcsph *solver, const WeirParticles *particles, uint32_t i)
 {
     const WeirConstants *constants = &solver->constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     uint32_t dimension = constants->dimension;
     for (uint32_t axis = 0; axis < 3; ++axis) {
         size_t k = (size_t)dimension * i + axis;
-        double away =
-            axis < dimension ? (particles->position[k] - constants->origin[axis]) / constants->quantum : 0.0;
-        int32_t place = (int32_t)rint(away), period = (int32_t)periods[axis];
-        if (period > 0) place = place < 0 ? place + period : place >= period ? place - period : place;
-        solver->state.x[axis][i] = place;
+        solver->state.x[axis][i] =
+            axis < dimension ? weir_coordinate_of(constants, particles->position[k], axis) : 0;
         solver->state.velocity[axis][i] = axis < dimension ? particles->velocity[k] : 0.0f;
     }
     solver->state.excess[i] =
