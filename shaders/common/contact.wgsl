@@ -57,8 +57,9 @@ fn approach_velocity(own: vec4i, own_motion: vec4f, other: vec4i, other_motion: 
     return vector_of(own_motion) - vector_of(vec4f(solid_velocity(u32(other.w), place_of(other)), 0.0));
 }
 
-// The barrier's acceleration.
-fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
+// The barrier's acceleration. `reach`, quanta: nobody farther away acts. (A warp waits for the one thread that searches here, and
+// a small scene for that warp: candidates are loaded together.)
+fn barrier_of(own: vec4i, own_motion: vec4f, reach: f32) -> Vector {
     let barrier_range = quanta_of_spacings(BARRIER_RANGE);
     let brake_range = quanta_of_spacings(BRAKE_RANGE);
     let solid = is_solid(u32(own.w));
@@ -68,22 +69,24 @@ fn barrier_of(own: vec4i, own_motion: vec4f) -> Vector {
     let pace = select(START_PACE, parameters.particle_spacing / sound_way, sound_way > 0.0);
     let share = BARRIER_SHARE * pace;
     var sum = Vector();
-    var walk = walk_around(place_of(own), i32(brake_range) + 4 + i32(way_since_sort()));
+    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
-        for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = coordinate_at(start + j);
-            let offset = Vector(walk.place - place_of(other));
-            let r = max(length(offset), barrier_range / 3.0);
-            let near = 1.0 - r / brake_range;
-            let mixed = u32(other.w) != GROUP_EMPTY && is_solid(u32(other.w)) != solid;
-            if mixed && near > 0.0 {
+        for (var at = cell_start[walk.first_cell]; at < end; at += 32u) {
+            for (var found = near_among(walk.place, start + at, end - at, reach * reach, 0u).bits; found != 0u; found &= found - 1u) {
+                let j = start + at + firstTrailingBit(found);
+                let other = coordinate_at(j);
+                if u32(other.w) == GROUP_EMPTY || is_solid(u32(other.w)) == solid {
+                    continue;
+                }
+                let offset = Vector(walk.place - place_of(other));
+                let r = max(length(offset), barrier_range / 3.0);
                 let push = BARRIER_STRENGTH * max(barrier_range / r - 1.0, 0.0);
                 let overlap = max(barrier_range - r, 0.0) / quanta_of_spacings(1.0);
-                let approach = -dot(approach_velocity(own, own_motion, other, motion_at(start + j)), offset)
+                let approach = -dot(approach_velocity(own, own_motion, other, motion_at(j)), offset)
                     / (r * constants.sound_speed);
                 let bounded = min(push, share * (pace * overlap + max(approach, 0.0)));
-                let rate = min(BRAKE_STRENGTH / parameters.courant * near, share);
+                let rate = min(BRAKE_STRENGTH / parameters.courant * max(1.0 - r / brake_range, 0.0), share);
                 let bulk = barrier_bulk(select(u32(other.w), u32(own.w), solid));
                 sum += (bulk * (bounded + rate * max(approach - BRAKE_LIMIT, 0.0)) / r) * offset;
             }
@@ -102,15 +105,18 @@ fn contact_force(own: vec4i) -> Vector {
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
     let start = reading_start();
-    var walk = walk_around(place_of(own), i32(quanta_of_spacings(1.0)) + 4 + i32(way_since_sort()));
+    let reach = quanta_of_spacings(1.0);
+    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(way_since_sort()));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
-        for (var j = cell_start[walk.first_cell]; j < end; j++) {
-            let other = coordinate_at(start + j);
-            let offset = Vector(walk.place - place_of(other)) * constants.quantum;
-            let r_squared = dot(offset, offset);
-            if r_squared < spacing * spacing && r_squared > 0.0 && is_solid(u32(other.w)) && u32(other.w) != group {
-                let r = sqrt(r_squared);
+        for (var at = cell_start[walk.first_cell]; at < end; at += 32u) {
+            for (var found = near_among(walk.place, start + at, end - at, reach * reach, 0u).bits; found != 0u; found &= found - 1u) {
+                let other = coordinate_at(start + at + firstTrailingBit(found));
+                let offset = Vector(walk.place - place_of(other)) * constants.quantum;
+                let r = length(offset);
+                if r == 0.0 || !is_solid(u32(other.w)) || u32(other.w) == group {
+                    continue;
+                }
                 let relative = velocity - solid_velocity(u32(other.w), place_of(other));
                 let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
                     - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;

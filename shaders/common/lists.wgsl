@@ -1,6 +1,11 @@
 // Where the lists lie. A list is written in parts of eight entries, and those of 128 particles lie side by side. Part 0 is the
 // header: how many entries follow, and in 3D the first candidate of each layer.
 const NO_LIST = 0xffffffffu;
+
+// With MARKS_MIXED, added to the number of entries where not all of them may be of fluid: in lists of WARP particles side by side
+// if it is so in one of them, so that their threads do the same.
+const MIXED_LIST = 0x80000000u;
+const WARP = 32u;
 const PART_STRIDE = 128u;
 
 fn part_index(i: u32, part: u32) -> u32 {

@@ -48,7 +48,10 @@ fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
         let at = 2u * part_index(i, 0u);
         let header = vec4u(list_chunk(at), list_chunk(at + 1u));
         if header.x != NO_LIST {
-            return sum_listed(i, place, own, lane, start, header);
+            if MARKS_MIXED && header.x < MIXED_LIST {
+                return sum_listed(i, place, own, lane, start, header, true);
+            }
+            return sum_listed(i, place, own, lane, start, header, false);
         }
     }
     return sum_walk(place, own, lane, start, moved);
@@ -67,10 +70,11 @@ fn chunk_stride(chunk: u32) -> u32 {
     return LANES * PART_STRIDE;
 }
 
-// Each chunk is loaded while the one before it is summed.
-fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec4u) -> Sums {
+// Each chunk is loaded while the one before it is summed. `fluid`: all that it lists is.
+fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec4u, fluid: bool) -> Sums {
     var sums = no_sums();
-    let chunks = (header.x + 3u) / 4u;
+    let count = select(header.x, header.x & (MIXED_LIST - 1u), MARKS_MIXED);
+    let chunks = (count + 3u) / 4u;
     let bases = list_bases(start, i, header);
     var at = chunk_index(i, lane);
     var next = list_chunk(at);
@@ -80,10 +84,10 @@ fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec
         next = list_chunk(at);
         let slots = vec4u(listed(bases, words.x & 0xffffu), listed(bases, words.x >> 16u),
                           listed(bases, words.y & 0xffffu), listed(bases, words.y >> 16u));
-        add_four(&sums, place, own, slots);
+        add_four(&sums, place, own, slots, fluid);
     }
     if lane == 0u {
-        take_itself(&sums, own, f32(4u * chunks - header.x));
+        take_itself(&sums, own, f32(4u * chunks - count));
     }
     return sums;
 }
@@ -100,15 +104,15 @@ fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
             // Every second candidate is near: all add themselves, those beyond the support 0.
             for (var j = start + begin + lane; j < start + end; j += LANES) {
                 let other = particle_at(j);
-                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)));
+                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)), false);
             }
             continue;
         }
         for (var at = begin + 32u * lane; at < end; at += 32u * LANES) {
-            for (var near = near_among(walk.place, start + at, end - at, limit, 0u); near != 0u; near &= near - 1u) {
+            for (var near = near_among(walk.place, start + at, end - at, limit, 0u).bits; near != 0u; near &= near - 1u) {
                 let j = start + at + firstTrailingBit(near);
                 let other = particle_at(j);
-                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)));
+                add_pair(&sums, own, other, Vector(walk.place - place_of(other.coordinate)), false);
             }
         }
     }
@@ -116,15 +120,15 @@ fn sum_walk(place: Place, own: Own, lane: u32, start: u32, moved: u32) -> Sums {
 }
 
 // Loads first: compilers spread them over the sums as registers allow.
-fn add_four(sums: ptr<function, Sums>, place: Place, own: Own, slots: vec4u) {
+fn add_four(sums: ptr<function, Sums>, place: Place, own: Own, slots: vec4u, fluid: bool) {
     let a = particle_at(slots.x);
     let b = particle_at(slots.y);
     let c = particle_at(slots.z);
     let d = particle_at(slots.w);
-    add_pair(sums, own, a, offset_to(place, a));
-    add_pair(sums, own, b, offset_to(place, b));
-    add_pair(sums, own, c, offset_to(place, c));
-    add_pair(sums, own, d, offset_to(place, d));
+    add_pair(sums, own, a, offset_to(place, a), fluid);
+    add_pair(sums, own, b, offset_to(place, b), fluid);
+    add_pair(sums, own, c, offset_to(place, c), fluid);
+    add_pair(sums, own, d, offset_to(place, d), fluid);
 }
 
 fn offset_to(place: Place, other: Particle) -> Vector {

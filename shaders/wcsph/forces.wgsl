@@ -111,7 +111,7 @@ fn with_pressure(summed: Sums) -> Sums {
     return sums;
 }
 
-// Of a neighbour, asked of every pair: without emitters and drains all others are fluid.
+// Of a neighbour, asked of every pair that may not be of fluid: without emitters and drains all others are fluid.
 fn is_solid_neighbor(group: u32) -> bool {
     if EMITTER_COUNT == 0u && !CAN_EMPTY {
         return group != GROUP_FLUID;
@@ -127,12 +127,12 @@ fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
     (*sums).filling -= times * kernel_shape(1.0) * own.inverse_density;
 }
 
-// The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector) {
+// The kernel is 0 beyond the support. `sure_fluid`: the neighbour cannot be a solid's.
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector, sure_fluid: bool) {
     let neighbor = other.motion;
     let group = u32(other.coordinate.w);
     let solid = ON_SOLIDS && own.solid;
-    let fluid = !HAS_SOLIDS || !is_solid_neighbor(group);
+    let fluid = !HAS_SOLIDS || sure_fluid || !is_solid_neighbor(group);
     let acts = !(solid && !fluid) && !(CAN_EMPTY && group == GROUP_EMPTY);
     let r_squared = distance_squared(offset);
     let inverse_r = inverseSqrt(r_squared);
@@ -189,13 +189,14 @@ fn slope_at_end(own: Own, q: f32, r_squared: f32, inverse_r: f32, growth: f32) -
     return q * q * saturate(q - own.second_half_in_supports * inverse_r * growth);
 }
 
-// Whether the barrier may act: few particles come so close to a solid, or approach it so fast, that they need that search.
-// `speed`: none of the fluid that may be near is faster.
-fn meets_barrier(sums: Sums, speed: f32) -> bool {
+// How far the barrier may act, quanta, or 0: few particles come so close to a solid, or approach it so fast, that they need that
+// search, for which their warp waits. `speed`: none of the fluid that may be near is faster.
+fn barrier_reach(sums: Sums, speed: f32) -> f32 {
     let solid_speed = select(0.0, control.solid_speed, MOVING_SOLIDS) + FASTEST_SURFACE;
     let near = sqrt(sums.solid_square);
-    let range = select(BARRIER_RANGE, BRAKE_RANGE, speed + solid_speed > BRAKE_LIMIT * constants.sound_speed);
-    return HAS_SOLIDS && near < quanta_of_spacings(range);
+    let brakes = speed + solid_speed > BRAKE_LIMIT * constants.sound_speed;
+    let reach = quanta_of_spacings(select(BARRIER_RANGE, BRAKE_RANGE, brakes));
+    return select(0.0, reach, HAS_SOLIDS && near < reach);
 }
 
 // By pressure. `own_pressure` as it enters the sum.
@@ -303,8 +304,9 @@ fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> v
     var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
     // A read may come before the maximum is known, and what an emitter has just made is not in it.
-    if meets_barrier(sums, select(control.max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u)) {
-        acceleration += barrier_of(own, own_motion);
+    let reach = barrier_reach(sums, select(control.max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u));
+    if reach > 0.0 {
+        acceleration += barrier_of(own, own_motion, reach);
     }
     return vec4f(wide(acceleration), constants.particle_mass * constants.kernel_factor * sums.filling);
 }
@@ -357,8 +359,9 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     let push = pressure_acceleration(sums, own_motion.w, acts);
     var acceleration = push + viscous_acceleration(sums, own_motion.w, inside)
         + body_forces(position_of(place_of(own)), velocity);
-    if meets_barrier(sums, length(velocity)) {
-        acceleration += barrier_of(own, own_motion);
+    let reach = barrier_reach(sums, length(velocity));
+    if reach > 0.0 {
+        acceleration += barrier_of(own, own_motion, reach);
     }
     let free = u32(own.w) == GROUP_FLUID; // an inlet's particles keep their velocity
     if FORCES_READ {

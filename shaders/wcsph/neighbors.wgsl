@@ -12,6 +12,7 @@
 
 var<workgroup> fluid_slots: atomic<u32>; // wgpu-native does not zero it
 var<workgroup> fluid_before: atomic<u32>;
+var<workgroup> mixed_warp: array<atomic<u32>, WORKGROUP_SIZE / WARP>;
 
 // Across the end of an axis runs do not come in the order of their slots, and entries count from the lowest one.
 const WRAPS = DIMENSION == 3u && (PERIODIC_X || PERIODIC_Y);
@@ -38,7 +39,8 @@ fn first_candidates(place: Place, reach: i32) -> vec4u {
     return header;
 }
 
-fn make_list(i: u32, own: vec4i, start: u32) {
+// Leaves the list but for its header, which it returns. `groups` takes the bits of all candidates' groups.
+fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4u {
     let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
     let limit = f32(reach) * f32(reach);
     // Of groups less 1, those below are solids', which solids do not see.
@@ -68,7 +70,9 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         fits = fits && run_fits(i, first, layer, begin, end);
         let shift = entry_shift(i, first, layer);
         for (var at = begin; at < end; at += 32u) {
-            for (var near = near_among(walk.place, start + at, end - at, limit, unseen); near != 0u; near &= near - 1u) {
+            let found = near_among(walk.place, start + at, end - at, limit, unseen);
+            *groups |= found.groups;
+            for (var near = found.bits; near != 0u; near &= near - 1u) {
                 part = pushed(part, at + firstTrailingBit(near) + shift);
                 count += 1u;
                 if count % 8u == 0u {
@@ -86,7 +90,7 @@ fn make_list(i: u32, own: vec4i, start: u32) {
         }
         store_part(i, count / 8u, part);
     }
-    set_list_part(part_index(i, 0u), vec4u(select(NO_LIST, listed_count, fits), header.yzw));
+    return vec4u(select(NO_LIST, listed_count, fits), header.yzw);
 }
 
 // A part with an entry more; its first one falls out.
@@ -115,8 +119,16 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
         if FLUID_FIRST {
             put_fluid_first(first + local, local);
         }
+        var mixed = false;
+        var header = vec4u(NO_LIST);
         if first + local < constants.particle_count {
-            note_particle(first + local);
+            header = note_particle(first + local, &mixed);
+        }
+        if LISTS && MARKS_MIXED && any_of_warp(mixed, local) {
+            header.x |= MIXED_LIST;
+        }
+        if LISTS && first + local < constants.particle_count {
+            set_list_part(part_index(first + local, 0u), header);
         }
     }
 }
@@ -149,14 +161,34 @@ fn put_fluid_first(i: u32, local: u32) {
     }
 }
 
-fn note_particle(i: u32) {
+// Its list's header, and whether not all that it lists may be of fluid.
+fn note_particle(i: u32, mixed: ptr<function, bool>) -> vec4u {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
         solid_particle[sorted_id[i] - constants.first_solid].slot = i;
     }
     let start = side_start(control.side);
     let own = coordinate_at(start + i);
-    if LISTS && u32(own.w) != GROUP_EMPTY {
-        make_list(i, own, start);
+    if !LISTS || u32(own.w) == GROUP_EMPTY {
+        return vec4u(NO_LIST);
     }
+    var groups = 0u;
+    let header = make_list(i, own, start, &groups);
+    *mixed = groups != GROUP_FLUID;
+    return header;
+}
+
+// Whether it is so for one of the WARP threads.
+fn any_of_warp(mixed: bool, local: u32) -> bool {
+    if local % WARP == 0u {
+        atomicStore(&mixed_warp[local / WARP], 0u);
+    }
+    workgroupBarrier();
+    if mixed {
+        atomicStore(&mixed_warp[local / WARP], 1u);
+    }
+    workgroupBarrier();
+    let is_mixed = atomicLoad(&mixed_warp[local / WARP]) == 1u;
+    workgroupBarrier();
+    return is_mixed;
 }

@@ -39,7 +39,7 @@ fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
 }
 
 // The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector) {
+fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector, sure_fluid: bool) {
     let fluid = other.motion;
     let w = select(0.0, kernel_shape(within_support(length(offset))), is_fluid(u32(other.coordinate.w)));
     (*sums).weight += w;

@@ -110,7 +110,8 @@ typedef struct WeirWcsphTraits {
     uint32_t share_threads;     // of a workgroup of pass forces
     uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
     uint32_t list_shares,
-        list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many
+        list_blocks;  // shares of the lists' buffer; of 128 particles' lists each holds so many
+    bool marks_mixed; // lists without solids are summed apart from others
     uint32_t row_height, layer_height;        // of cells, quanta
     uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
 } WeirWcsphTraits;

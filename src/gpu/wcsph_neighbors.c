@@ -20,6 +20,8 @@ enum { LIST_BLOCK = 128 };
 // Threads share a particle's neighbours while they are no more than so many times n, and each has so many of the n.
 static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
 static const uint32_t most_lanes = 8;
+// In 2D from so many particles on, few of which are near walls; sums over fluid alone take a tenth of the instructions less.
+static const uint32_t least_marked = 262144;
 
 static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
 {
@@ -122,6 +124,8 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     traits->list_parts = parts_of_lists(parameters, constants, most);
     bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);
     if (!lists) traits->list_parts = 0;
+    traits->marks_mixed = lists && traits->solid_count > 0 && constants->dimension == 2 &&
+                          constants->particle_count >= least_marked;
     if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);

@@ -257,6 +257,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("CAN_EMPTY", traits->can_empty);
     FLAG("LISTS", traits->list_parts > 0);
     NUMBER("LIST_PARTS", traits->list_parts);
+    FLAG("MARKS_MIXED", traits->marks_mixed);
     NUMBER("LIST_SHARE", traits->list_shares > 1 ? 128 * (traits->list_parts + 1) * traits->list_blocks : 0);
     NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
