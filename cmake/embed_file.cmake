@@ -1,9 +1,10 @@
 # Writes the bytes of INPUT as the C array SYMBOL, ended by a 0, into OUTPUT. An array, not a string: ISO C allows
-# compilers to refuse string literals of more than 4,095 characters. WGSL goes without its comments, which would be a
-# twelfth of weir.wasm; its lines keep their numbers.
+# compilers to refuse string literals of more than 4,095 characters. WGSL goes without its comments and
+# indentation, which would be a ninth of weir.wasm; its lines keep their numbers.
 if(INPUT MATCHES "\\.wgsl$")
   file(READ ${INPUT} text)
   string(REGEX REPLACE " *//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "\n +" "\n" text "${text}")
   string(HEX "${text}" bytes)
 else()
   file(READ ${INPUT} bytes HEX)
