@@ -110,10 +110,10 @@ typedef struct WeirWcsphTraits {
     uint32_t share_threads;     // of a workgroup of pass forces
     uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
     uint32_t list_shares,
-        list_blocks;  // shares of the lists' buffer; of 128 particles' lists each holds so many
-    bool marks_mixed; // lists without solids are summed apart from others
+        list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many
     uint32_t row_height, layer_height;        // of cells, quanta
     uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
+    bool marks_mixed;                         // lists of fluid alone are summed apart from others
 } WeirWcsphTraits;
 
 // Particles of one block of pass solid_forces.

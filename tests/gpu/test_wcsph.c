@@ -195,11 +195,10 @@ static void compare_health(WeirSolver *on_gpu, WeirSolver *on_cpu)
 }
 
 // Begins anew with so many threads per particle, and with what else a test has changed of the solver's traits.
-static void begin_anew(WeirSolver *on_gpu, const WeirTestWorld *test, uint32_t lanes, bool marked)
+static void begin_anew(WeirSolver *on_gpu, const WeirTestWorld *test, uint32_t lanes)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
     solver->traits.lanes = lanes;
-    solver->traits.marks_mixed = marked;
     WeirParameters parameters = solver->common.parameters;
     WeirConstants constants = solver->common.constants;
     assert_int_equal(on_gpu->interface->configure(on_gpu, &parameters, &constants), WEIR_OK);
@@ -212,7 +211,8 @@ static void run_case(const WeirTestCase *chosen, uint32_t lanes, bool marked)
     WeirTestWorld test;
     chosen->build(&test);
     WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
-    if (lanes > 0) begin_anew(on_gpu, &test, lanes, marked);
+    ((WeirWcsphGpu *)on_gpu)->traits.marks_mixed = marked;
+    if (lanes > 0) begin_anew(on_gpu, &test, lanes);
     WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
     compare(chosen->name, &test, on_gpu, on_cpu, 2e-5);
     take_steps(on_gpu, 1, INFINITY);
@@ -297,7 +297,7 @@ static void outrun_lists_lose_nobody(void **state)
         WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
         assert_int_equal(solver->traits.sort_interval, 4);
         solver->traits.least_allowance = solver->traits.most_allowance = 1;
-        begin_anew(on_gpu, &test, lanes[n], false);
+        begin_anew(on_gpu, &test, lanes[n]);
         uint32_t outrun = 0;
         for (int k = 0; k < 20; ++k) {
             take_steps(on_gpu, 3, INFINITY);
@@ -327,7 +327,7 @@ static void walks_find_what_lists_find(void **state)
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
         gpu->options.list_memory = 0;
         assert_int_equal(((WeirWcsphGpu *)on_gpu)->traits.list_parts, 0);
-        begin_anew(on_gpu, &test, lanes[n], false);
+        begin_anew(on_gpu, &test, lanes[n]);
         // (After 40 a wall's particle has its only fluid at the very end of its support: no pressure, or all of it.)
         take_steps(on_gpu, 36, INFINITY);
         take_steps(on_cpu, 36, INFINITY);
