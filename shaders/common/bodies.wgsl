@@ -228,7 +228,7 @@ fn kicked_free(n: u32, given: SolidState, force: vec3f, torque: vec3f, dt: f32) 
 // The mean velocities over the step, so that the second half's move ends where the motion is.
 fn kicked_driven(n: u32, given: SolidState, dt: f32) -> SolidState {
     var state = given;
-    let rates = mean_rates(n, control.began, add_ticks(control.began, ticks_of(dt)), dt);
+    let rates = mean_rates(n, control.clock.began, add_ticks(control.clock.began, ticks_of(dt)), dt);
     state.acceleration = vec4f((rates.displacement - state.velocity.xyz) / dt, 0.0);
     state.angular_acceleration = vec4f((rates.rotation - state.angular_velocity.xyz) / dt, 0.0);
     state.velocity = vec4f(rates.displacement, 0.0);

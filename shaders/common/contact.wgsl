@@ -63,13 +63,13 @@ fn barrier_of(own: vec4i, own_motion: vec4f, reach: f32) -> Vector {
     let barrier_range = quanta_of_spacings(BARRIER_RANGE);
     let brake_range = quanta_of_spacings(BRAKE_RANGE);
     let solid = is_solid(u32(own.w));
-    let start = reading_start();
+    let start = side_start(now().last_side);
     // One spacing per step, over the speed of sound.
-    let sound_way = constants.sound_speed * control.dt;
+    let sound_way = constants.sound_speed * now().dt;
     let pace = select(START_PACE, parameters.particle_spacing / sound_way, sound_way > 0.0);
     let share = BARRIER_SHARE * pace;
     var sum = Vector();
-    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(way_since_sort()));
+    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(now().travelled - control.sorted_at));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var at = cell_start[walk.first_cell]; at < end; at += 32u) {
@@ -104,9 +104,9 @@ fn contact_force(own: vec4i) -> Vector {
     let group = u32(own.w);
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
-    let start = reading_start();
+    let start = side_start(now().last_side);
     let reach = quanta_of_spacings(1.0);
-    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(way_since_sort()));
+    var walk = walk_around(place_of(own), i32(reach) + 4 + i32(now().travelled - control.sorted_at));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];
         for (var at = cell_start[walk.first_cell]; at < end; at += 32u) {

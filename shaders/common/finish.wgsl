@@ -3,6 +3,16 @@
 // publish_finish() after all others are through; of solids' particles by pass finish, if any move. After common/drift.wgsl.
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
+var<workgroup> clock: Clock; // the workgroup's own, where pass forces moves it on or a read needs another
+
+// The step under way. OWN_CLOCK: of the pass.
+fn now() -> Clock {
+    if OWN_CLOCK {
+        return clock;
+    }
+    return control.clock;
+}
+
 // Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
 const LEAST_DENSITY = 0.8;
 
@@ -19,9 +29,9 @@ fn clear_finish() {
 
 fn publish_finish() {
     if atomicLoad(&finish_most) > 0u {
-        atomicMax(&control.error_bits, atomicLoad(&error_most));
-        atomicMax(&control.moved_finish[1u - control.last_side], atomicLoad(&finish_most));
-        atomicMax(&control.moved_drift[1u - control.last_side], atomicLoad(&drift_most));
+        atomicMax(&control.maxima[now().noting].error_bits, atomicLoad(&error_most));
+        atomicMax(&control.maxima[now().noting].moved_finish, atomicLoad(&finish_most));
+        atomicMax(&control.maxima[now().noting].moved_drift, atomicLoad(&drift_most));
     }
 }
 
@@ -50,7 +60,8 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
         return;
     }
     atomicAdd(&control.bad_particles, 1u);
-    atomicMin(&control.bad_step, control.steps);
+    atomicMax(&control.maxima[now().noting].bad, 1u);
+    atomicMin(&control.bad_step, now().steps);
     atomicMin(&control.bad_slot, i);
     // The next step sees it: what this one began with, half a step ago, is the last good state, and nothing may run over it.
 }
@@ -75,13 +86,13 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
     var own_motion = kicked_motion;
     let rate = shift.w;
     var velocity = vector_of(own_motion);
-    let last_half = 0.5 * control.dt;
+    let last_half = 0.5 * now().dt;
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w = max(own_motion.w + last_half * rate, (LEAST_DENSITY - 1.0) * parameters.rest_density);
     take_density(own_motion.w);
     var way = last_half * velocity;
     if SHIFTING && u32(own.w) == GROUP_FLUID {
-        way += control.dt * vector_of(shift);
+        way += now().dt * vector_of(shift);
     }
     var place = place_of(own) + quanta_of(way);
     if u32(own.w) == GROUP_FLUID {
@@ -90,7 +101,7 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
     }
     take_finish(way_length(place - place_of(own)));
     let finished = vec4i(wide_place(place), own.w);
-    let half = 0.5 * control.next_dt;
+    let half = 0.5 * now().next_dt;
     if half == 0.0 {
         leave(i, finished, own_motion);
         return;
@@ -106,10 +117,14 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
     leave(i, to.coordinate, own_motion);
 }
 
+// Whether particles go to the state: they are to be sorted, or no step follows.
+fn is_leaving() -> bool {
+    return now().sorting == 1u || now().next_dt == 0.0;
+}
+
 // Where the next step, or whoever comes after this one, finds it.
 fn leave(i: u32, at: vec4i, own_motion: vec4f) {
-    let sorts = control.sorting == 1u || control.next_dt == 0.0;
-    let target_slot = select(side_start(1u - control.last_side), 0u, sorts) + i;
+    let target_slot = select(side_start(now().side), 0u, is_leaving()) + i;
     set_coordinate(target_slot, at);
     set_motion(target_slot, own_motion);
 }
@@ -117,12 +132,12 @@ fn leave(i: u32, at: vec4i, own_motion: vec4f) {
 // A particle of a solid, in the velocity of which is not yet what its surface slides. Its density is what walls saw.
 fn leave_solid(i: u32, at: vec4i, velocity: vec3f) {
     let surface = solid_table[u32(at.w) - GROUP_SOLID].surface_velocity.xyz;
-    leave(i, at, vec4f(velocity + surface, motion_at(side_start(control.last_side) + i).w));
+    leave(i, at, vec4f(velocity + surface, motion_at(side_start(now().last_side) + i).w));
 }
 
 // Of a solid that stays where it is: it stands in both working copies (pass scatter), so only the state may lack it.
-fn leave_fixed(i: u32, at: vec4i) {
-    if control.sorting == 1u || control.next_dt == 0.0 {
-        leave_solid(i, at, vec3f(0.0));
+fn leave_fixed(i: u32, at: vec4i, own_motion: vec4f) {
+    if is_leaving() {
+        leave(i, at, own_motion);
     }
 }

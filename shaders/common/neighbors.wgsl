@@ -1,7 +1,7 @@
 // Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, no_sums(), added(), add_pair(),
 // and take_itself(), which takes back what the particle added to its own sums as the filling of a list. Furthermore share_of(),
-// the sums of one lane by sum_pairs(); reading_start(), where in `coordinate` and `motion` the particles are; and
-// way_since_sort(), the largest way of one from where it was sorted.
+// the sums of one lane by sum_pairs(); reading_start(), where in `coordinate` and `motion` the particles are;
+// way_since_sort(), the largest way of one from where it was sorted; and `cell_start`. Pass forces has all this twice.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then; so it misses nobody while no particle has moved farther than that. When one has, or
@@ -13,7 +13,6 @@
 // LANES threads, side by side in a workgroup, share a particle's neighbours. Several leave their shares for the first one,
 // which after a barrier finds all_sums(). A lone one sums where it asks for all_sums(): brought there from before, the
 // sums cost large scenes up to a tenth of pass forces (H100).
-@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 
 // By the workgroup's threads.
 var<workgroup> shares: array<Sums, select(1u, WORKGROUP_SIZE, LANES > 1u)>;

@@ -2,5 +2,5 @@
 @group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
 fn is_sorting() -> bool {
-    return control.sorting == 1u && control.running == 1u && is_well(control.bad_step, control.restored);
+    return control.clock.sorting == 1u && control.clock.running == 1u && is_well(control.bad_step, control.restored);
 }

@@ -19,95 +19,108 @@ fn is_fluid(group: u32) -> bool {
     return group == GROUP_FLUID || (group >= GROUP_INLET && group != GROUP_EMPTY);
 }
 
-// WeirWcsphControl in src/gpu/wcsph.h. Times are 64-bit counts of 2^-42 s, low word first: adding is exact.
-//
-// No pass reads what another thread of it writes. One thread of `walls` (or `time_step`) does the clock for the passes from
-// `forces` on, and one thread of `forces` tells the next step's sort and `walls` where it left the particles: running,
-// side, travelled.
+// WeirWcsphClock in src/gpu/wcsph.h: where the simulation stands, and the next step. Times are 64-bit counts of 2^-42 s, low
+// word first: adding is exact.
+struct Clock {
+    steps_left: u32,
+    running: u32,           // 1: a step follows;
+    stepping: u32,          // 1: and one is under way in pass forces
+    steps: u32,
+    time: vec2u,            // at the end of the last step, or of the one under way;
+    began: vec2u,           // at its begin
+    dt: f32,                // s, of the last step, or of the one under way
+    next_dt: f32,           // s, of the step after it; 0: it is not taken yet
+    free_dt: f32,           // the same, if nothing shortens it
+    max_speed: f32,         // m/s, of the fluid in the step before
+    // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
+    side: u32,              // of the working copies, that sorts write and the next step reads;
+    last_side: u32,         // that the last step read, or the one under way: it writes the other one
+    sorting: u32,           // 1: the particles are sorted before the next step
+    stale: u32,             // 1: and so they are at the next chance
+    travelled: u32,         // up to that step's kick
+    next_allowance: u32,
+    noting: u32,            // which of the maxima it notes
+    left: f32,              // s, from its end to `until`
+}
+
+// What the threads of a step note together.
+struct Maxima {
+    speed_bits: u32,        // largest speed and acceleration, as bits: those of floats >= 0 have their order
+    acceleration_bits: u32,
+    error_bits: u32,        // largest density error
+    moved_finish: u32,      // quanta, since the kick, in the second half of the step's move,
+    moved_drift: u32,       // and in the first half of the next one's
+    bad: u32,               // 1: it went wrong
+    unused: array<u32, 26>, // a line of the caches for each
+}
+
+// WeirWcsphControl. No pass reads what another thread of it writes: steps take turns with three clocks and maxima. Pass forces finds its
+// step prepared in its clock, prepares the next one's, and tells all other passes by `clock`; of the maxima it reads those of
+// the step before, notes its own, and clears the next one's.
 //
 // What many threads add to while others read the rest lies apart: a line of the caches for each.
 struct Control {
     until: vec2u,           // written by the host for a batch of steps: no step passes it;
-    steps_left: u32,        // and how many steps it may take
-    running: u32,           // 1: the step under way may sort, and sum over what solids see;
-    stepping: u32,          // 1: and do all that follows
-    steps: u32,
-    time: vec2u,            // at the end of the last step, or of the one under way from when it is `stepping`;
-    began: vec2u,           // at the begin of that
-    dt: f32,                // s, of the step under way, once it is `stepping`
-    next_dt: f32,           // s, of the step after it; 0: it is not taken yet
-    free_dt: f32,           // the same, if nothing shortens it
-    max_speed: f32,         // m/s, of the fluid in the step before
-    bad_id: u32,            // of the particle in bad_slot
-    starting: u32,          // 1: forces_read takes the maxima of a new state
-    bad_place: vec4i,       // coordinate of the particle in bad_slot
-    emitted: u32,
+    steps_asked: u32,       // and how many steps it may take
     restored: u32,          // 1: after a blow-up the last good state was put back
-    // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
-    side: u32,              // of the working copies, that sorts write and walls read;
-    last_side: u32,         // that forces and what follows read: they write the other one
-    sorting: u32,           // 1: the particles are sorted before the next step
-    stale: u32,             // 1: and so they are at the next chance
-    travelled: u32,         // up to the last step's kick;
-    reached: u32,           // up to that of the step under way
+    starting: u32,          // 1: forces_read takes the maxima of a new state
+    emitted: u32,
+    solid_speed: f32,       // m/s, no particle of a solid moves faster; without surface_velocity
+    bad_id: u32,            // of the particle in bad_slot
+    bad_place: vec4i,       // its coordinate
+    next_due: vec2u,        // time at which emitters may have a layer next
     sorted_at: u32,         // way when the particles were sorted
     allowance: u32,         // way after which lists made then may miss neighbours
-    next_due: vec2u,        // time at which emitters may have a layer next
-    next_allowance: u32,
-    solid_speed: f32,       // m/s, no particle of a solid moves faster; without surface_velocity
-    unused: array<u32, 30>, // what follows begins at 256 bytes
-    speed_bits: u32,        // largest speed and acceleration of the last step, as bits: those of floats >= 0
-    acceleration_bits: u32, // have their order
-    error_bits: u32,        // largest density error of the last step
+    clock: Clock,
+    unused: array<u32, 28>, // what follows begins at 256 bytes
+    clocks: array<Clock, 3>,
+    unused_too: array<u32, 4>, // at 512
+    maxima: array<Maxima, 3>,
     bad_particles: u32,
     bad_step: u32,          // 0xffffffff: none
     bad_slot: u32,          // of the bad particles the first in the order of cells
     drained: u32,
     lost: u32,
-    moved_finish: array<u32, 2>,// since the last kick, in the second half of its step's move,
-    moved_drift: array<u32, 2>,// and in the first half of the next one's; by the side that they moved to
 }
 
 // The same for passes in which all particles write at once.
-struct SharedControl {
-    until: vec2u,
-    steps_left: u32,
-    running: u32,
-    stepping: u32,
-    steps: u32,
-    time: vec2u,
-    began: vec2u,
-    dt: f32,
-    next_dt: f32,
-    free_dt: f32,
-    max_speed: f32,
-    bad_id: u32,
-    starting: u32,
-    bad_place: vec4i,
-    emitted: u32,
-    restored: u32,
-    side: u32,
-    last_side: u32,
-    sorting: u32,
-    stale: u32,
-    travelled: u32,
-    reached: u32,
-    sorted_at: u32,
-    allowance: u32,
-    next_due: vec2u,
-    next_allowance: u32,
-    solid_speed: f32,
-    unused: array<u32, 30>,
+struct SharedMaxima {
     speed_bits: atomic<u32>,
     acceleration_bits: atomic<u32>,
     error_bits: atomic<u32>,
+    moved_finish: atomic<u32>,
+    moved_drift: atomic<u32>,
+    bad: atomic<u32>,
+    unused: array<u32, 26>,
+}
+struct SharedControl {
+    until: vec2u,
+    steps_asked: u32,
+    restored: u32,
+    starting: u32,
+    emitted: u32,
+    solid_speed: f32,
+    bad_id: u32,
+    bad_place: vec4i,
+    next_due: vec2u,
+    sorted_at: u32,
+    allowance: u32,
+    clock: Clock,
+    unused: array<u32, 28>,
+    clocks: array<Clock, 3>,
+    unused_too: array<u32, 4>,
+    maxima: array<SharedMaxima, 3>,
     bad_particles: atomic<u32>,
     bad_step: atomic<u32>,
     bad_slot: atomic<u32>,
     drained: atomic<u32>,
     lost: atomic<u32>,
-    moved_finish: array<atomic<u32>, 2>,
-    moved_drift: array<atomic<u32>, 2>,
+}
+
+// What a step leaves besides the particles.
+struct StepEnd {
+    sort_groups: array<vec4u, 2u * SORT_SIZES>, // sizes of the dispatches of the next sort, then those that they have if there is one
+    density_rate: array<f32>,                   // of a batch's last step, for the next one's pass drift
 }
 
 // WeirSolid: what of a wall or body stays.

@@ -3,17 +3,22 @@
 //
 // in:  control
 // out: control
+@group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
+
 @compute @workgroup_size(1)
 fn begin_read() {
-    control.running = select(0u, 1u, is_well(control.bad_step, control.restored));
-    if control.running == 1u {
-        control.moved_finish[0] = control.moved_finish[control.side];
-        control.moved_drift[0] = control.moved_drift[control.side];
-        control.side = 0u;
+    control.clock.running = select(0u, 1u, is_well(control.bad_step, control.restored));
+    if control.clock.running == 1u {
+        control.clock.side = 0u;
     }
+    // For walls: no step, on that copy.
+    control.clocks[0] = control.clock;
+    control.clocks[0].stepping = 0u;
+    control.clocks[0].last_side = control.clock.side;
+    control.clocks[0].noting = next_turn(control.clock.noting);
     if control.restored == 1u {
         // Ways of the step that went wrong.
-        control.moved_finish[0] = 0u;
-        control.moved_drift[0] = 0u;
+        control.maxima[control.clock.noting].moved_finish = 0u;
+        control.maxima[control.clock.noting].moved_drift = 0u;
     }
 }

@@ -1,10 +1,10 @@
 // First half of the move of a batch's first step: x += dt/2 v, rho += dt/2 drho; drains and open sides empty slots.
 // The later steps' is done where the last one finishes. What is to be sorted stays in the state, the rest goes to a working copy.
 //
-// in:  coordinate, motion, id, density_rate (of the last step), solid_particle, solid_state, control
+// in:  coordinate, motion, id, step_end, solid_particle, solid_state, control
 // out: coordinate, motion, counts and largest way in control
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
-@group(0) @binding(BINDING_density_rate) var<storage, read> density_rate: array<f32>;
+@group(0) @binding(BINDING_step_end) var<storage, read> step_end: StepEnd;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
@@ -19,12 +19,12 @@ fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
-    if i < constants.particle_count && control.next_dt > 0.0 {
-        drift_particle(i, select(side_start(control.side), 0u, control.sorting == 1u) + i);
+    if i < constants.particle_count && control.clock.next_dt > 0.0 {
+        drift_particle(i, select(side_start(control.clock.side), 0u, control.clock.sorting == 1u) + i);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&way_most) > 0u {
-        atomicMax(&control.moved_drift[control.side], atomicLoad(&way_most));
+        atomicMax(&control.maxima[control.clock.noting].moved_drift, atomicLoad(&way_most));
     }
 }
 
@@ -34,9 +34,9 @@ fn drift_particle(i: u32, target_slot: u32) {
     var at = old;
     let group = u32(old.w);
     if is_fluid(group) {
-        let half = 0.5 * control.next_dt;
-        if control.steps > 0u {
-            own.w += half * density_rate[i];
+        let half = 0.5 * control.clock.next_dt;
+        if control.clock.steps > 0u {
+            own.w += half * step_end.density_rate[i];
         }
         let to = drifted(old, vector_of(own), half);
         at = to.coordinate;

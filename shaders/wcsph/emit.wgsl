@@ -7,6 +7,11 @@
 @group(0) @binding(BINDING_nozzle) var<storage, read> nozzle: array<vec4i>;
 // By emitter: when its next layer is due, xy, and when it stops, zw.
 @group(0) @binding(BINDING_schedule) var<storage, read_write> schedule: array<vec4u>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
+
+fn is_emitting() -> bool {
+    return is_well(control.bad_step, 0u) && control.clock.next_dt > 0.0 && any_layer_due(control.clock);
+}
 
 const NEVER = vec2u(0xffffffffu);
 
@@ -24,14 +29,14 @@ fn share_of(n: u32) -> vec2u {
 fn takes_part(n: u32) -> bool {
     let due = schedule[n].xy;
     let stop = schedule[n].zw;
-    let time = middle_of_step();
+    let time = middle_of_step(control.clock);
     return !is_before(add_ticks(time, share_of(n)), due) && !is_before(stop, due) && !is_before(stop, time);
 }
 
 // How far a layer of emitter n has come since it was due, m; negative where it is early.
 fn way_since_due(n: u32) -> f32 {
     let due = schedule[n].xy;
-    let time = middle_of_step();
+    let time = middle_of_step(control.clock);
     let early = is_before(time, due);
     let ticks = subtract_ticks(select(time, due, early), select(due, time, early));
     return select(1.0, -1.0, early) * emitters[n].speed * seconds_of(ticks);
@@ -102,7 +107,7 @@ fn bear(k: u32) {
 
 // Plans emitter n's next layer; returns when it is due.
 fn plan(n: u32) -> vec2u {
-    let now = middle_of_step();
+    let now = middle_of_step(control.clock);
     var due = schedule[n].xy;
     if layers[n + 1u] > layers[n] {
         let spacing = parameters.particle_spacing;
@@ -118,7 +123,7 @@ fn plan(n: u32) -> vec2u {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn emit(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        shared_count = select(0u, 1u, any_layer_due());
+        shared_count = select(0u, 1u, is_emitting());
     }
     if workgroupUniformLoad(&shared_count) == 0u {
         return;

@@ -6,20 +6,22 @@
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 
+const OWN_CLOCK = false;
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn finish(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
           @builtin(local_invocation_index) local: u32) {
     let particle = thread_index(workgroup, workgroups, local);
-    if particle < constants.particle_count - constants.first_solid && control.stepping == 1u {
+    if particle < constants.particle_count - constants.first_solid && now().stepping == 1u {
         finish_solid(solid_particle[particle].slot, solid_particle[particle].start);
     }
 }
 
 fn finish_solid(i: u32, start: vec3f) {
-    let own = coordinate_at(side_start(control.last_side) + i);
+    let own = coordinate_at(side_start(now().last_side) + i);
     let n = u32(own.w) - GROUP_SOLID;
     if solid_table[n].kind == SOLID_FIXED {
-        leave_fixed(i, own);
+        leave_fixed(i, own, motion_at(side_start(now().last_side) + i));
         return;
     }
     let arm = rotate(solid_state[NEW + n].orientation, start);

@@ -4,17 +4,39 @@
 //
 // Distances are summed in quanta, and what scales a whole sum is applied at its end. Formulas: docs/wcsph.md.
 //
-// in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
-// out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; density_rate, if none
-//      follows. kicked, of particles of free bodies: force of contact; its second copy: force of the fluid, and how much of it
-//      is around, kg. control: maxima, where the next step finds the particles
+// With ONE_PASS it is the whole step: the clock moves on here (common/start.wgsl), pressure at walls is found pair by pair, and
+// solids see the fluid for the next step's friction. Otherwise walls, or time_step, comes before.
 // With FORCES_READ, for pass forces_read: kicked is acceleration and pressure, and of fluid nothing else changes.
-@group(0) @binding(BINDING_density_rate) var<storage, read_write> density_rate: array<f32>;
+//
+// in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
+// out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; step_end.
+//      kicked, of particles of free bodies: force of contact; its second copy: force of the fluid, and how much of it
+//      is around, kg. control: maxima, and the next step's clock
+const OWN_CLOCK = FORCES_READ || ONE_PASS;
 
-// Of the working copy: a read is between two steps.
+// Of a step: which of the clocks and maxima are its own.
+var<private> turn: u32;
+
+// What sums need they find here, and what comes after them by now(): a compiler that saw the same value before and after would keep
+// it in a register meanwhile, and those are scarce.
 fn reading_start() -> u32 {
-    return side_start(select(control.last_side, control.side, FORCES_READ));
+    if FORCES_READ {
+        return side_start(control.clock.side); // a read is between two steps
+    }
+    if ONE_PASS {
+        return side_start(control.clocks[turn].last_side);
+    }
+    return side_start(control.clock.last_side);
 }
+
+fn step_dt() -> f32 {
+    if ONE_PASS && !FORCES_READ {
+        return control.clocks[turn].dt;
+    }
+    return control.clock.dt;
+}
+
+@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 
 struct Sums {
     pressure: Vector,   // of p_j: see summed_pressure()
@@ -61,6 +83,7 @@ struct Own {
     stick: f32,
     inverse_density: f32,
     pressure: f32,
+    excess: f32, // that stands for it in a linear equation of state
     second_half: f32, // quanta per m/s: how far a velocity moves a particle in the second half of the step;
     second_half_in_supports: f32, // 3/2 of that, in supports
 }
@@ -69,10 +92,10 @@ struct Own {
 const ON_SOLIDS = HAS_SOLIDS && (FREE_SOLIDS || FORCES_READ);
 
 fn own_of(own: vec4i, own_motion: vec4f) -> Own {
-    let second_half = 0.5 * control.dt * constants.inverse_quantum;
+    let second_half = 0.5 * step_dt() * constants.inverse_quantum;
     return Own(vector_of(own_motion), ON_SOLIDS && is_solid(u32(own.w)), sticks(u32(own.w)),
-               1.0 / (parameters.rest_density + own_motion.w), summed_pressure(own_motion.w, true), second_half,
-               1.5 * second_half * constants.inverse_support);
+               1.0 / (parameters.rest_density + own_motion.w), summed_pressure(own_motion.w, true), linear_excess(own_motion.w),
+               second_half, 1.5 * second_half * constants.inverse_support);
 }
 
 fn added(a: Sums, b: Sums) -> Sums {
@@ -82,12 +105,13 @@ fn added(a: Sums, b: Sums) -> Sums {
                 min(a.solid_square, b.solid_square));
 }
 
+var<workgroup> moved: u32; // way since the sort
+
 fn way_since_sort() -> u32 {
-    if FORCES_READ {
-        return control.travelled + atomicLoad(&control.moved_finish[control.side])
-            + atomicLoad(&control.moved_drift[control.side]) - control.sorted_at;
+    if OWN_CLOCK {
+        return moved;
     }
-    return control.reached - control.sorted_at;
+    return control.clock.travelled - control.sorted_at;
 }
 
 // Where the equation of state is linear, the excess density is summed for the pressure, until with_pressure(): an instruction
@@ -109,6 +133,26 @@ fn with_pressure(summed: Sums) -> Sums {
         sums.laplacian *= stiffness;
     }
     return sums;
+}
+
+// Each neighbour of a solid's particle finds the pressure there by itself.
+const WALLS_BY_PAIR = HAS_SOLIDS && ONE_PASS;
+
+// What in a linear equation of state gives the same pressure.
+fn linear_excess(excess: f32) -> f32 {
+    if TAIT {
+        let stiffness = constants.sound_speed * constants.sound_speed;
+        return (pressure_of(excess) - parameters.background_pressure) / stiffness;
+    }
+    return excess;
+}
+
+// A solid that stays where it is, as one fluid particle sees it at `offset` = fluid - solid: that particle's pressure and the
+// weight of the fluid between them, as linear_excess(). It never pulls. docs/wcsph.md, "Walls".
+fn wall_excess(excess: f32, offset: Vector) -> f32 {
+    let stiffness = constants.sound_speed * constants.sound_speed;
+    let fall = (parameters.rest_density * constants.quantum / stiffness) * vector_of(parameters.gravity);
+    return max(excess - dot(fall, offset), -parameters.background_pressure / stiffness);
 }
 
 // Of a neighbour, asked of every pair that may not be of fluid: without emitters and drains all others are fluid.
@@ -137,10 +181,20 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector
     let r_squared = distance_squared(offset);
     let inverse_r = inverseSqrt(r_squared);
     let q = within_support(r_squared * inverse_r);
-    let inverse_density = select(0.0, 1.0 / (parameters.rest_density + neighbor.w), acts);
+    var excess = neighbor.w;
+    if WALLS_BY_PAIR && !solid {
+        excess = select(wall_excess(own.excess, offset), excess, fluid);
+    }
+    var inverse_density = select(0.0, 1.0 / (parameters.rest_density + excess), acts);
+    var pressure = summed_pressure(excess, fluid);
+    if WALLS_BY_PAIR && solid {
+        // Here and in pressure_of_solid() what stands for the own values is this pair's.
+        let wall = wall_excess(linear_excess(excess), -offset);
+        inverse_density /= (parameters.rest_density + wall) * own.inverse_density;
+        pressure += summed_pressure(wall, false);
+    }
     let slope = kernel_slope(q) * inverse_density;
     let both_fluid = select(0.0, slope, fluid && !solid);
-    let pressure = summed_pressure(neighbor.w, fluid);
     let relative = own.velocity - vector_of(neighbor);
     var velocity = relative;
     if !fluid {
@@ -246,7 +300,7 @@ fn body_forces(at: Vector, velocity: Vector) -> Vector {
 // drho/dt / rho.
 fn shift_of(sums: Sums) -> vec4f {
     // One particle that flies faster than the method is valid for must not shake all the others.
-    let flow_speed = min(min(control.max_speed, 0.1 * constants.sound_speed), constants.shifting_limit / control.dt);
+    let flow_speed = min(min(now().max_speed, 0.1 * constants.sound_speed), constants.shifting_limit / now().dt);
     let most = 0.25 * flow_speed;
     let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
     let factor = -parameters.shifting * 4.0 * constants.smoothing_length * flow_speed
@@ -260,7 +314,7 @@ fn shift_of(sums: Sums) -> vec4f {
 // Excess density for the weight of fluid one support deep and the pressure rho0 v^2 / 2 at which the fastest fluid stagnates.
 fn due_excess() -> f32 {
     let c = constants.sound_speed;
-    let mach = min(control.max_speed / c, 0.1);
+    let mach = min(now().max_speed / c, 0.1);
     let weight = parameters.support_radius * length(parameters.gravity.xyz) / (c * c);
     return parameters.rest_density * (weight + 0.5 * mach * mach);
 }
@@ -286,7 +340,7 @@ fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
 // the divergence is the Laplacian of the pressure. The same operator diffuses the density. docs/wcsph.md, "Continuity".
 // `shift_rate`: what shifting and the like add, drho/dt / rho.
 fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
-    let dt = control.dt;
+    let dt = now().dt;
     let rho = parameters.rest_density + excess;
     let compress = constants.particle_mass * constants.gradient_factor * constants.quantum;
     let diffusion = min(parameters.density_diffusion * constants.smoothing_length / constants.sound_speed,
@@ -298,13 +352,21 @@ fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
     return rho * (compress * sums.divergence + shift_rate + pull) + constants.laplacian_factor * spread;
 }
 
+// As it enters the sum.
+fn pressure_of_solid(excess: f32) -> f32 {
+    if WALLS_BY_PAIR {
+        return select(0.0, parameters.background_pressure, SUMS_EXCESS); // the rest is in each pair's
+    }
+    return linear_pressure(excess);
+}
+
 // And in w the share of its support that fluid fills.
 fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> vec4f {
     let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
-    var acceleration = pressure_acceleration(sums, own_motion.w, linear_pressure(own_motion.w))
+    var acceleration = pressure_acceleration(sums, own_motion.w, pressure_of_solid(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
     // A read may come before the maximum is known, and what an emitter has just made is not in it.
-    let reach = barrier_reach(sums, select(control.max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u));
+    let reach = barrier_reach(sums, select(now().max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u));
     if reach > 0.0 {
         acceleration += barrier_of(own, own_motion, reach);
     }
@@ -341,10 +403,10 @@ fn clear_maxima() {
 }
 
 fn publish_maxima() {
-    atomicMax(&control.speed_bits, atomicLoad(&speed_most));
-    atomicMax(&control.acceleration_bits, atomicLoad(&acceleration_most));
+    atomicMax(&control.maxima[now().noting].speed_bits, atomicLoad(&speed_most));
+    atomicMax(&control.maxima[now().noting].acceleration_bits, atomicLoad(&acceleration_most));
     if FORCES_READ {
-        atomicMax(&control.error_bits, atomicLoad(&error_most));
+        atomicMax(&control.maxima[now().noting].error_bits, atomicLoad(&error_most));
     }
 }
 
@@ -373,7 +435,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
         }
         return;
     }
-    let new_velocity = velocity + select(0.0, control.dt, free) * acceleration;
+    let new_velocity = velocity + select(0.0, now().dt, free) * acceleration;
     var shift = vec4f(0.0);
     if SHIFTING && inside {
         shift = shift_of(sums);
@@ -383,39 +445,114 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if free {
         take_acceleration(dot(acceleration, acceleration));
     }
-    if control.next_dt == 0.0 {
-        density_rate[i] = shift.w;
+    if now().next_dt == 0.0 {
+        step_end.density_rate[i] = shift.w;
     }
     finish_fluid(i, own, vec4f(wide(new_velocity), own_motion.w), shift);
 }
 
-// One thread tells the next step's sort and walls, which run after this pass, where they find the particles.
-fn hand_over() {
-    control.running = select(0u, 1u, control.next_dt > 0.0);
-    control.side = 1u - control.last_side;
-    control.travelled = control.reached;
+// With ONE_PASS the clock moves on in each workgroup by itself, which costs less than a dispatch before this one. One of all
+// threads tells other passes, and prepares the next step.
+fn start_clock(tells: bool) {
+    if FORCES_READ {
+        clock = control.clock;
+        let last = maxima_of_step(clock.noting);
+        clock.last_side = clock.side;
+        clock.travelled += last.moved_finish + last.moved_drift;
+    } else if ONE_PASS {
+        clock = begun(turn, turn);
+        if tells {
+            tell_clock(clock);
+            control.clocks[next_turn(turn)] = prepared(clock);
+        }
+    } else if tells && control.clock.stepping == 1u {
+        control.clocks[0] = prepared(control.clock);
+    }
+    if OWN_CLOCK {
+        moved = clock.travelled - control.sorted_at;
+    }
+}
+
+fn slot_of(item: u32) -> u32 {
+    if FLUID_FIRST {
+        return cell_start[fluid_first_at(item)];
+    }
+    return item;
+}
+
+// A lone thread's particle is on its way while the clock moves on.
+const EARLY = ONE_PASS && LANES == 1u;
+
+struct Taken {
+    coordinate: vec4i,
+    motion: vec4f,
+}
+
+fn taken(i: u32) -> Taken {
+    return Taken(coordinate_at(reading_start() + i), motion_at(reading_start() + i));
+}
+
+// Solids see the fluid here, for the next step: friction finds them with the velocity of one step ago. Their threads are those of
+// the last workgroups.
+const SEES_FLUID = WALLS_BY_PAIR && FRICTION && !FORCES_READ;
+
+fn first_seeing_group() -> u32 {
+    return (LANES * constants.particle_count + WORKGROUP_SIZE - 1u) / WORKGROUP_SIZE;
+}
+
+// `thread`: of those that see.
+fn see_fluid(thread: u32, local: u32) {
+    let particle = constants.first_solid + thread / LANES;
+    let works = particle < constants.particle_count && now().stepping == 1u;
+    var i = 0u;
+    if works {
+        i = cell_start[fluid_first_at(particle)];
+    }
+    seen_leave_shares(works, i, thread % LANES, local);
+    if works && thread % LANES == 0u {
+        let own = coordinate_at(reading_start() + i);
+        let velocity = solid_table[u32(own.w) - GROUP_SOLID].surface_velocity.xyz;
+        let seen = seen_fluid_motion(i, own, velocity, vec3f(0.0), local);
+        leave_fixed(i, own, seen);
+        if !is_leaving() {
+            set_motion(side_start(now().side) + i, seen);
+        }
+    }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
           @builtin(local_invocation_index) local: u32) {
+    turn = workgroups.x % 3u;
+    let thread = thread_index(workgroup, workgroups, local);
+    var own = Taken();
+    if EARLY {
+        own = taken(min(thread, constants.particle_count - 1u));
+    }
     if local == 0u {
         clear_maxima();
+        start_clock(thread == 0u);
     }
     workgroupBarrier();
-    let thread = thread_index(workgroup, workgroups, local);
-    var runs = control.stepping == 1u;
+    if SEES_FLUID && workgroup_index(workgroup, workgroups) >= first_seeing_group() {
+        see_fluid(thread - WORKGROUP_SIZE * first_seeing_group(), local);
+        return;
+    }
+    var runs = now().stepping == 1u;
     if FORCES_READ {
-        runs = control.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
+        runs = clock.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
     }
     let works = thread / LANES < constants.particle_count && runs;
-    var i = thread / LANES;
-    if FLUID_FIRST && works {
-        i = cell_start[fluid_first_at(i)];
+    var i = 0u;
+    if works {
+        i = slot_of(thread / LANES);
     }
     leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
-        forces_on(i, local);
+        if !EARLY {
+            own = taken(i);
+        }
+        forces_on(i, own.coordinate, own.motion, local);
     }
     workgroupBarrier();
     if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
@@ -423,9 +560,6 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     }
     if !FORCES_READ && local == 0u {
         publish_finish();
-    }
-    if !FORCES_READ && thread == 0u && runs {
-        hand_over();
     }
 }
 
@@ -439,9 +573,7 @@ fn share_of(i: u32, lane: u32) -> Sums {
 }
 
 // By the particle's first thread, the workgroup's thread `local`.
-fn forces_on(i: u32, local: u32) {
-    let own = coordinate_at(reading_start() + i);
-    let own_motion = motion_at(reading_start() + i);
+fn forces_on(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if is_fluid(u32(own.w)) {
         forces_on_fluid(i, own, own_motion, local);
     } else if HAS_SOLIDS && is_solid(u32(own.w)) {
@@ -455,7 +587,9 @@ fn forces_on(i: u32, local: u32) {
 
 fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if !MOVING_SOLIDS && !FORCES_READ {
-        leave_fixed(i, own);
+        if !SEES_FLUID {
+            leave_fixed(i, own, own_motion);
+        }
         return;
     }
     if !wants_force(u32(own.w)) {

@@ -9,6 +9,6 @@
 fn health() {
     if control.bad_step != 0xffffffffu {
         control.bad_id = id[control.bad_slot];
-        control.bad_place = coordinate_at(side_start(control.last_side) + control.bad_slot);
+        control.bad_place = coordinate_at(side_start(control.clock.last_side) + control.bad_slot);
     }
 }

@@ -8,8 +8,8 @@
 fn load(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
         @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, workgroups, local);
-    if i < constants.particle_count && control.running == 1u {
-        set_coordinate(side_start(control.side) + i, coordinate_at(i));
-        set_motion(side_start(control.side) + i, motion_at(i));
+    if i < constants.particle_count && control.clock.running == 1u {
+        set_coordinate(side_start(control.clock.side) + i, coordinate_at(i));
+        set_motion(side_start(control.clock.side) + i, motion_at(i));
     }
 }

@@ -133,7 +133,7 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
     }
 }
 
-// Which thread of `forces` takes a particle is the same to its sums, so workgroups come in any order. Solids stand by id.
+// Which thread of `forces` takes a particle is the same to its sums, so workgroups come in any order.
 fn put_fluid_first(i: u32, local: u32) {
     if local == 0u {
         atomicStore(&fluid_slots, 0u);
@@ -156,7 +156,7 @@ fn put_fluid_first(i: u32, local: u32) {
     if is_first {
         k += atomicLoad(&fluid_before);
     }
-    if is_particle {
+    if is_first {
         cell_start[fluid_first_at(k)] = i;
     }
 }
@@ -166,8 +166,9 @@ fn note_particle(i: u32, mixed: ptr<function, bool>) -> vec4u {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
         solid_particle[sorted_id[i] - constants.first_solid].slot = i;
+        cell_start[fluid_first_at(sorted_id[i])] = i;
     }
-    let start = side_start(control.side);
+    let start = side_start(control.clock.side);
     let own = coordinate_at(start + i);
     if !LISTS || u32(own.w) == GROUP_EMPTY {
         return vec4u(NO_LIST);

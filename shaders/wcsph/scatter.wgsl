@@ -12,14 +12,15 @@
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
            @builtin(local_invocation_index) local: u32) {
-    let sorts = control.sorting == 1u && control.running == 1u && is_well(control.bad_step, control.restored);
+    let sorts = control.clock.sorting == 1u && control.clock.running == 1u && is_well(control.bad_step, control.restored);
     if !sorts {
         return;
     }
     let thread = thread_index(workgroup, workgroups, local);
     if thread == 0u {
-        control.sorted_at = control.travelled + control.moved_finish[control.side] + control.moved_drift[control.side];
-        control.allowance = control.next_allowance;
+        let last = control.clock.noting;
+        control.sorted_at = control.clock.travelled + control.maxima[last].moved_finish + control.maxima[last].moved_drift;
+        control.allowance = control.clock.next_allowance;
     }
     for (var i = thread; i < constants.particle_count; i += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
         move_particle(i);
@@ -42,12 +43,12 @@ fn move_particle(i: u32) {
             slot += select(0u, 1u, link < own + 1u);
         }
     }
-    let start = side_start(control.side);
+    let start = side_start(control.clock.side);
     set_coordinate(start + slot, vec4i(wide_place(place), at.w));
     set_motion(start + slot, motion_at(i));
     sorted_id[slot] = own;
     if HAS_SOLIDS && is_solid(u32(at.w)) && solid_table[u32(at.w) - GROUP_SOLID].kind == SOLID_FIXED {
-        let other = side_start(1u - control.side) + slot; // so that no step need carry it over
+        let other = side_start(1u - control.clock.side) + slot; // so that no step need carry it over
         set_coordinate(other, vec4i(wide_place(place), at.w));
         set_motion(other, motion_at(i));
     }

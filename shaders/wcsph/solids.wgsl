@@ -5,6 +5,7 @@
 // out: solid_state, control
 @group(0) @binding(BINDING_solid_sum) var<storage, read> solid_sum: array<vec4f>;
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
 var<workgroup> largest: atomic<u32>; // acceleration of free bodies, as bits
 var<workgroup> finish_most: atomic<u32>; // ways
@@ -14,7 +15,7 @@ fn kicked_solid(n: u32) -> SolidState {
     var state = solid_state[NOW + n];
     if solid_table[n].kind != SOLID_FREE {
         if is_driven(n) {
-            state = kicked_driven(n, state, control.dt);
+            state = kicked_driven(n, state, control.clock.dt);
         }
         return state;
     }
@@ -29,7 +30,7 @@ fn kicked_solid(n: u32) -> SolidState {
     // Contact moves the body, but the force that is told is the fluid's.
     state.force = sums[0];
     state.torque = sums[1];
-    state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.dt);
+    state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.clock.dt);
     let acceleration = length(state.acceleration.xyz);
     if is_finite(acceleration) {
         atomicMax(&largest, bitcast<u32>(acceleration));
@@ -45,12 +46,12 @@ fn solids(@builtin(local_invocation_index) local: u32) {
         atomicStore(&drift_most, 0u);
     }
     workgroupBarrier();
-    if control.stepping == 1u {
-        let next_half = 0.5 * control.next_dt;
-        let next = add_ticks(control.time, ticks_of(next_half));
+    if control.clock.stepping == 1u {
+        let next_half = 0.5 * control.clock.next_dt;
+        let next = add_ticks(control.clock.time, ticks_of(next_half));
         for (var n = local; n < SOLID_COUNT; n += WORKGROUP_SIZE) {
             let kicked = kicked_solid(n);
-            let finished = drifted_solid(n, kicked, 0.5 * control.dt, control.time);
+            let finished = drifted_solid(n, kicked, 0.5 * control.clock.dt, control.clock.time);
             let drifted = drifted_solid(n, finished, next_half, next);
             solid_state[SAVED + n] = solid_state[NOW + n];
             solid_state[NEW + n] = kicked;
@@ -62,10 +63,10 @@ fn solids(@builtin(local_invocation_index) local: u32) {
         }
     }
     workgroupBarrier();
-    if local == 0u && control.stepping == 1u {
-        control.acceleration_bits = max(control.acceleration_bits, atomicLoad(&largest));
-        let side = 1u - control.last_side;
-        control.moved_finish[side] = max(control.moved_finish[side], atomicLoad(&finish_most));
-        control.moved_drift[side] = max(control.moved_drift[side], atomicLoad(&drift_most));
+    if local == 0u && control.clock.stepping == 1u {
+        let step = &control.maxima[control.clock.noting];
+        (*step).acceleration_bits = max((*step).acceleration_bits, atomicLoad(&largest));
+        (*step).moved_finish = max((*step).moved_finish, atomicLoad(&finish_most));
+        (*step).moved_drift = max((*step).moved_drift, atomicLoad(&drift_most));
     }
 }

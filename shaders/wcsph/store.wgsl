@@ -9,7 +9,7 @@ fn store(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
          @builtin(local_invocation_index) local: u32) {
     let i = thread_index(workgroup, workgroups, local);
     if i < constants.particle_count {
-        set_coordinate(i, coordinate_at(side_start(control.last_side) + i));
-        set_motion(i, motion_at(side_start(control.last_side) + i));
+        set_coordinate(i, coordinate_at(side_start(control.clock.last_side) + i));
+        set_motion(i, motion_at(side_start(control.clock.last_side) + i));
     }
 }

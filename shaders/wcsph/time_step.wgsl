@@ -1,8 +1,10 @@
-// The step's time and the length of the next one, where there are no solids: otherwise a thread of pass walls does it.
+// The step's time and the length of the next one, where neither walls nor forces do it: in 3D without solids.
 //
 // in:  control, its maxima
-// out: control
+// out: control, step_end (sizes of dispatches)
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+
 @compute @workgroup_size(1)
 fn time_step() {
-    advance_clock();
+    tell_clock(begun(0u, control.clocks[0].noting));
 }

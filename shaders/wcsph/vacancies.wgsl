@@ -4,11 +4,16 @@
 // out: vacancy: the place of the empty slot plus 1, or 0; then the blocks' counts, which emit leaves at 0
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_vacancy) var<storage, read_write> vacancy: array<atomic<u32>>;
+@group(0) @binding(BINDING_control) var<storage, read> control: Control;
+
+fn is_emitting() -> bool {
+    return is_well(control.bad_step, 0u) && control.clock.next_dt > 0.0 && any_layer_due(control.clock);
+}
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn vacancies(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
              @builtin(local_invocation_index) local: u32) {
-    if !any_layer_due() {
+    if !is_emitting() {
         return;
     }
     let threads = workgroups.x * workgroups.y * WORKGROUP_SIZE;

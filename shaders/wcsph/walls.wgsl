@@ -1,51 +1,21 @@
-// What solid particles see of the fluid near them (Adami, Hu, Adams 2012): pressure, kept as the excess density that it
-// stands for, and for the laminar viscosity the mirrored velocity.
-// The first workgroup does the clock instead, which nobody here reads.
+// What solid particles see of the fluid near them (common/seen.wgsl). With ONE_PASS for reads alone, and at the start.
+// The first workgroup does the clock instead, and finds how fast solids move; nobody else here reads what it writes.
 //
 // in:  coordinate, motion (of the fluid), cell_start, neighbor_list, solid_particle, solid_state, control
-// out: motion (of solids), control
+// out: motion (of solids), control, step_end (sizes of dispatches)
+@group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
+@group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
 @group(0) @binding(BINDING_solid_state) var<storage, read> solid_state: array<SolidState>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 
 fn reading_start() -> u32 {
-    return side_start(control.side);
-}
-
-struct Own {
-    unused: u32,
-}
-
-struct Sums {
-    weight: f32,
-    pressure: f32,
-    mean: Vector,
-    moment: Vector,
-}
-
-fn no_sums() -> Sums {
-    return Sums();
-}
-
-fn added(a: Sums, b: Sums) -> Sums {
-    return Sums(a.weight + b.weight, a.pressure + b.pressure, a.mean + b.mean, a.moment + b.moment);
+    return side_start(control.clocks[0].last_side);
 }
 
 fn way_since_sort() -> u32 {
-    return control.travelled + control.moved_finish[control.side] + control.moved_drift[control.side] - control.sorted_at;
-}
-
-// Solid particles see no solid ones, so not themselves.
-fn take_itself(sums: ptr<function, Sums>, own: Own, times: f32) {
-}
-
-// The kernel is 0 beyond the support.
-fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector, sure_fluid: bool) {
-    let fluid = other.motion;
-    let w = select(0.0, kernel_shape(within_support(length(offset))), is_fluid(u32(other.coordinate.w)));
-    (*sums).weight += w;
-    (*sums).pressure += w * pressure_of(fluid.w);
-    (*sums).mean += w * vector_of(fluid);
-    (*sums).moment += (w * (parameters.rest_density + fluid.w)) * offset;
+    let last = last_turn(control.clocks[0].noting);
+    return control.clocks[0].travelled + atomicLoad(&control.maxima[last].moved_finish)
+        + atomicLoad(&control.maxima[last].moved_drift) - control.sorted_at;
 }
 
 // Velocity and acceleration of solid `n` at a particle: sway (a + alpha x r) + w x (w x r).
@@ -75,29 +45,11 @@ fn wall_motion(n: u32, particle: u32) -> WallMotion {
                           + cross(state.angular_velocity.xyz, spin));
 }
 
-fn share_of(particle: u32, lane: u32) -> Sums {
-    let i = solid_particle[particle].slot;
-    return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane);
-}
-
-// By the first thread of the solid particle, the workgroup's thread `local`.
-fn see_fluid(particle: u32, local: u32) {
-    let i = solid_particle[particle].slot;
-    let start = reading_start();
-    let own = coordinate_at(start + i);
-    let sums = all_sums(i, place_of(own), Own(0u), local);
+// By the first thread of the solid particle in slot i, the workgroup's thread `local`.
+fn see_fluid(particle: u32, i: u32, local: u32) {
+    let own = coordinate_at(reading_start() + i);
     let wall = wall_motion(u32(own.w) - GROUP_SOLID, particle);
-    var seen = wall.velocity;
-    var wall_pressure = 0.0;
-    if sums.weight > 1e-12 {
-        let inverse = 1.0 / sums.weight;
-        seen = 2.0 * wall.velocity - wide(sums.mean * inverse);
-        let fall = parameters.gravity.xyz - wall.acceleration;
-        wall_pressure = max(sums.pressure * inverse + dot(fall, wide(sums.moment * (inverse * constants.quantum))), 0.0);
-    }
-    let stiffness = constants.sound_speed * constants.sound_speed;
-    let excess = (wall_pressure - parameters.background_pressure) / stiffness;
-    set_motion(start + i, vec4f(seen, excess));
+    set_motion(reading_start() + i, fluid_motion(i, own, wall.velocity, wall.acceleration, local));
 }
 
 var<workgroup> fastest_solid: atomic<u32>; // m/s, as bits
@@ -126,7 +78,7 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
          @builtin(local_invocation_index) local: u32) {
     if workgroup_index(workgroup, workgroups) == 0u {
         if local == 0u {
-            advance_clock();
+            tell_clock(begun(0u, control.clocks[0].noting));
         }
         if MOVING_SOLIDS {
             note_solid_speed(local);
@@ -135,10 +87,14 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     }
     let thread = thread_index(workgroup, workgroups, local) - WORKGROUP_SIZE;
     let particle = thread / LANES;
-    let runs = control.running == 1u && is_well(control.bad_step, control.restored);
+    let runs = control.clocks[0].running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
     let works = particle < constants.particle_count - constants.first_solid && runs;
-    leave_shares(works, particle, thread % LANES, local);
+    var i = 0u;
+    if works {
+        i = solid_particle[particle].slot;
+    }
+    leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
-        see_fluid(particle, local);
+        see_fluid(particle, i, local);
     }
 }

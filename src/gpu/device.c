@@ -169,7 +169,8 @@ static void on_adapter(WGPURequestAdapterStatus status, WGPUAdapter adapter, WGP
         fail(gpu, WEIR_ERROR_DEVICE, "the GPU does not tell its limits", (WGPUStringView){NULL, 0});
         return;
     }
-    gpu->max_groups = gpu->limits.maxComputeWorkgroupsPerDimension;
+    gpu->max_groups =
+        gpu->limits.maxComputeWorkgroupsPerDimension - 2; // up to two more: weir_pass_dispatch_turn()
     request_device(gpu);
 }
 

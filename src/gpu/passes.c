@@ -1,6 +1,7 @@
 #include "gpu/passes.h"
 #include "gpu/platform.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,10 +54,11 @@ static size_t write_constants(char *text, size_t capacity, const WeirMethodInfo 
     return length;
 }
 
-static size_t length_of(const char *const *parts)
+// Twice the texts' length: the names in them may become longer.
+static size_t room_for(const char *const *parts)
 {
     size_t length = 0;
-    for (; parts && *parts; ++parts) length += strlen(*parts);
+    for (; parts && *parts; ++parts) length += 2 * strlen(*parts);
     return length;
 }
 
@@ -67,18 +69,79 @@ static char *append(char *end, const char *text)
     return end + length;
 }
 
+// ---- Parts with other names ----
+
+const char weir_seen_parts[] = "seen_";
+
+static size_t name_length(const char *at)
+{
+    size_t length = 0;
+    while (isalnum((unsigned char)at[length]) || at[length] == '_') ++length;
+    return length;
+}
+
+typedef struct Names {
+    const char *name[32];
+    size_t length[32], count;
+} Names;
+
+// What a part declares: a line each.
+static void note_names(Names *names, const char *part)
+{
+    static const char *const kinds[] = {"fn ", "struct ", "const ", "var<workgroup> "};
+    for (const char *line = part; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
+            if (strncmp(line, kinds[k], strlen(kinds[k])) != 0 || names->count == 32) continue;
+            names->name[names->count] = line + strlen(kinds[k]);
+            names->length[names->count] = name_length(line + strlen(kinds[k]));
+            ++names->count;
+        }
+    }
+}
+
+static bool is_noted(const Names *names, const char *name, size_t length)
+{
+    for (size_t n = 0; n < names->count; ++n)
+        if (names->length[n] == length && strncmp(names->name[n], name, length) == 0) return true;
+    return false;
+}
+
+// Members, which follow a full stop, keep their names.
+static char *append_renamed(char *end, const char *part, const Names *names)
+{
+    for (char last = '\0'; *part; last = end[-1]) {
+        size_t length = name_length(part);
+        if (length > 0 && last != '.' && is_noted(names, part, length)) end = append(end, weir_seen_parts);
+        if (length == 0) length = 1;
+        memcpy(end, part, length);
+        end += length;
+        part += length;
+    }
+    *end = '\0';
+    return end;
+}
+
+static char *append_parts(char *end, const char *const *parts)
+{
+    for (; parts && *parts && *parts != weir_seen_parts; ++parts) end = append(end, *parts);
+    if (!parts || !*parts) return end;
+    Names names = {0};
+    for (const char *const *part = parts + 1; *part; ++part) note_names(&names, *part);
+    for (const char *const *part = parts + 1; *part; ++part) end = append_renamed(end, *part, &names);
+    return end;
+}
+
 char *weir_pass_source(const WeirMethodInfo *method, uint32_t threads, const char *settings,
                        const char *const *parts, const char *source)
 {
     size_t constants = write_constants(NULL, 0, method, threads, settings);
-    size_t size = constants + strlen(weir_wgsl_structs) + length_of(method->parts) + length_of(parts) +
+    size_t size = constants + strlen(weir_wgsl_structs) + room_for(method->parts) + room_for(parts) +
                   strlen(source) + 1;
     char *text = malloc(size);
     if (!text) return NULL;
     char *end = text + write_constants(text, size, method, threads, settings);
     end = append(end, weir_wgsl_structs);
-    for (const char *const *part = method->parts; *part; ++part) end = append(end, *part);
-    for (const char *const *part = parts; part && *part; ++part) end = append(end, *part);
+    end = append_parts(append_parts(end, method->parts), parts);
     append(end, source);
     return text;
 }
@@ -186,7 +249,9 @@ static bool make_pipeline(WeirPasses *passes, WeirVariant *variant, uint32_t pas
         (size_t)snprintf(settings, capacity, "%s%s", variant->settings, info->settings ? info->settings : "");
     weir_parts_declare(passes->buffers, method->functions, info->reads, info->writes, settings + length,
                        capacity - length);
-    uint32_t threads = info->items == WEIR_ITEMS_SHARES ? passes->share_threads : WEIR_WORKGROUP_SIZE;
+    uint32_t threads = info->items == WEIR_ITEMS_SHARES || info->items == WEIR_ITEMS_STEP
+                           ? passes->share_threads
+                           : WEIR_WORKGROUP_SIZE;
     char *source = weir_pass_source(method, threads, settings, info->parts, info->source);
     free(settings);
     if (!source) return false;
@@ -284,6 +349,15 @@ void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePass
     weir_pass_groups(passes->gpu, passes->groups[passes->method->passes[pass].items], size);
     set_pass(passes, pass, encoder);
     wgpuComputePassEncoderDispatchWorkgroups(encoder, size[0], size[1], 1);
+}
+
+void weir_pass_dispatch_turn(const WeirPasses *passes, uint32_t pass, uint32_t turn,
+                             WGPUComputePassEncoder encoder)
+{
+    uint32_t size[2];
+    weir_pass_groups(passes->gpu, passes->groups[passes->method->passes[pass].items], size);
+    set_pass(passes, pass, encoder);
+    wgpuComputePassEncoderDispatchWorkgroups(encoder, size[0] + (turn + 3 - size[0] % 3) % 3, size[1], 1);
 }
 
 void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,

@@ -8,8 +8,9 @@ enum { WEIR_MAX_PASSES = 28, WEIR_SETTINGS_LENGTH = 2048 };
 
 // What a pass is spread over.
 typedef enum WeirItems {
-    WEIR_ITEMS_PARTICLES,    // one thread per particle
-    WEIR_ITEMS_SHARES,       // several threads per particle
+    WEIR_ITEMS_PARTICLES, // one thread per particle
+    WEIR_ITEMS_SHARES,    // several threads per particle
+    WEIR_ITEMS_STEP, // the same, and more in workgroups of their own for solid particles that see fluid (wcsph)
     WEIR_ITEMS_CELL_BLOCKS,  // one workgroup per block of the scan
     WEIR_ITEMS_ONE,          // one workgroup
     WEIR_ITEMS_SOLIDS,       // one thread per solid particle (wcsph)
@@ -31,6 +32,10 @@ static inline uint32_t weir_workgroups(uint32_t threads)
 {
     return weir_workgroups_of(WEIR_WORKGROUP_SIZE, threads);
 }
+
+// In a list of parts: those behind it come with `seen_` before each name that they declare, so that one pass may have two sums
+// over neighbours.
+extern const char weir_seen_parts[];
 
 typedef struct WeirPassInfo {
     const char *name, *label, *source;
@@ -61,7 +66,8 @@ typedef struct WeirPasses {
     const WeirMethodInfo *method;
     const WeirBuffers *buffers;
     uint32_t groups[WEIR_ITEMS_TOTAL]; // workgroups by what a pass is spread over
-    uint32_t share_threads; // of a workgroup over WEIR_ITEMS_SHARES; others have WEIR_WORKGROUP_SIZE
+    uint32_t
+        share_threads; // of a workgroup over WEIR_ITEMS_SHARES and WEIR_ITEMS_STEP; others have WEIR_WORKGROUP_SIZE
     WGPUBindGroupLayout layout[WEIR_MAX_PASSES];
     WGPUBindGroup bind_group[WEIR_MAX_PASSES];
     WeirVariant variants[2];
@@ -86,6 +92,9 @@ void weir_passes_destroy(WeirPasses *passes);
 void weir_pass_groups(const WeirGpu *gpu, uint32_t groups, uint32_t size[2]);
 // Records one pass.
 void weir_pass_dispatch(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder);
+// The same with 3 k + turn workgroups along the first dimension, up to two more than it needs: so its shader knows whose turn it is.
+void weir_pass_dispatch_turn(const WeirPasses *passes, uint32_t pass, uint32_t turn,
+                             WGPUComputePassEncoder encoder);
 // The same with workgroups by three numbers of a buffer, from byte `offset` on.
 void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUComputePassEncoder encoder,
                                  WGPUBuffer sizes, uint64_t offset);

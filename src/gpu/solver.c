@@ -181,6 +181,13 @@ void weir_record(const WeirRecorder *recorder, uint32_t pass)
     if (!recorder->pass) weir_profile_end_pass(recorder->solver->profile, encoder);
 }
 
+void weir_record_turn(const WeirRecorder *recorder, uint32_t pass, uint32_t turn)
+{
+    WGPUComputePassEncoder encoder = pass_encoder(recorder, pass);
+    weir_pass_dispatch_turn(&recorder->solver->passes, pass, turn, encoder);
+    if (!recorder->pass) weir_profile_end_pass(recorder->solver->profile, encoder);
+}
+
 void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t sizes, uint64_t offset)
 {
     WeirGpuSolver *solver = recorder->solver;

@@ -86,6 +86,8 @@ WeirRecorder weir_recorder_measure(WeirGpuSolver *solver, WGPUCommandEncoder enc
 WeirRecorder weir_recorder_batch(WeirGpuSolver *solver, WGPUCommandEncoder encoder, uint32_t steps,
                                  bool measured);
 void weir_record(const WeirRecorder *recorder, uint32_t pass);
+// A pass whose shader is to know whose `turn` it is, 0 to 2: weir_pass_dispatch_turn().
+void weir_record_turn(const WeirRecorder *recorder, uint32_t pass, uint32_t turn);
 // A pass whose workgroups the device decides, by three numbers in buffer `sizes` from byte `offset` on.
 void weir_record_indirect(const WeirRecorder *recorder, uint32_t pass, uint32_t sizes, uint64_t offset);
 void weir_recorder_end(const WeirRecorder *recorder);

@@ -26,7 +26,7 @@ static const uint64_t usual_list_bytes = (uint64_t)8 << 30;
 static void record_sorting(const WeirRecorder *recorder, uint32_t pass, uint32_t size, bool indirect)
 {
     if (indirect)
-        weir_record_indirect(recorder, pass, WEIR_WCSPH_sort_groups, 16 * (uint64_t)size);
+        weir_record_indirect(recorder, pass, WEIR_WCSPH_step_end, 16 * (uint64_t)size);
     else
         weir_record(recorder, pass);
 }
@@ -46,23 +46,28 @@ static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder
 }
 
 // The first step's length and the first half of its move; later steps find theirs done where the one before finished.
-static void record_begin(const WeirRecorder *recorder)
+static void record_begin(WeirWcsphGpu *solver, const WeirRecorder *recorder)
 {
     weir_record(recorder, WEIR_WCSPH_BEGIN);
     weir_record(recorder, WEIR_WCSPH_DRIFT);
+    solver->turn = 0;
 }
 
 // With the clock, which walls does on the way.
 static void record_walls(const WeirWcsphGpu *solver, const WeirRecorder *recorder)
 {
-    weir_record(recorder, solver->traits.solid_count > 0 ? WEIR_WCSPH_WALLS : WEIR_WCSPH_TIME_STEP);
+    if (solver->traits.solid_count > 0)
+        weir_record(recorder, WEIR_WCSPH_WALLS);
+    else if (!solver->traits.one_pass)
+        weir_record(recorder, WEIR_WCSPH_TIME_STEP);
 }
 
-static void record_step(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
+static void record_step(WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
 {
     if (may_sort) record_sort(solver, recorder, solver->indirect);
-    record_walls(solver, recorder);
-    weir_record(recorder, WEIR_WCSPH_FORCES);
+    if (!solver->traits.one_pass) record_walls(solver, recorder);
+    weir_record_turn(recorder, WEIR_WCSPH_FORCES, solver->turn);
+    solver->turn = (solver->turn + 1) % 3;
     if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
     if (solver->traits.moving_solids) {
         weir_record(recorder, WEIR_WCSPH_SOLIDS);
@@ -75,13 +80,12 @@ void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, W
     WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
     if (how == WEIR_EVALUATE_RESTORED) weir_record(&recorder, WEIR_WCSPH_STORE);
     weir_record(&recorder, WEIR_WCSPH_BEGIN_READ);
-    if (how == WEIR_EVALUATE_NEW) {
+    if (how == WEIR_EVALUATE_NEW)
         record_sort(solver, &recorder, false);
-        weir_record(&recorder, WEIR_WCSPH_STORE);
-    } else {
+    else
         weir_record(&recorder, WEIR_WCSPH_LOAD);
-    }
     record_walls(solver, &recorder);
+    if (how == WEIR_EVALUATE_NEW) weir_record(&recorder, WEIR_WCSPH_STORE); // with what solids see
     weir_record(&recorder, WEIR_WCSPH_FORCES_READ);
     if (solver->traits.solid_count > 0) weir_record(&recorder, WEIR_WCSPH_SOLID_FORCES_READ);
     weir_recorder_end(&recorder);
@@ -105,7 +109,7 @@ static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool 
     WeirRecorder recorder;
     if (first) {
         recorder = weir_recorder_begin(common, encoder);
-        record_begin(&recorder);
+        record_begin(solver, &recorder);
         weir_recorder_end(&recorder);
     }
     if (measured) {
@@ -141,10 +145,10 @@ static WeirStatus step(WeirSolver *base, uint32_t steps, double until)
     WeirGpuSolver *common = &solver->common;
     WeirStatus status = weir_gpu_solver_ready(common);
     if (status != WEIR_OK || steps == 0) return status;
-    WeirWcsphControl request = {.steps_left = steps};
+    WeirWcsphControl request = {.steps_asked = steps};
     write_ticks(until, request.until);
     wgpuQueueWriteBuffer(common->gpu->queue, common->buffers.handle[WEIR_WCSPH_control][0], 0, &request,
-                         offsetof(WeirWcsphControl, running));
+                         offsetof(WeirWcsphControl, restored));
     weir_profile_poll(common->profile);
     bool measured = weir_profile_ready(common->profile);
     uint32_t most = steps_per_submit(common);
@@ -197,6 +201,9 @@ static void set_groups(WeirWcsphGpu *solver)
     uint32_t solid_particles = constants->particle_count - constants->first_solid;
     groups[WEIR_ITEMS_SHARES] =
         weir_workgroups_of(traits->share_threads, traits->lanes * constants->particle_count);
+    groups[WEIR_ITEMS_STEP] = groups[WEIR_ITEMS_SHARES];
+    if (traits->one_pass && constants->friction_factor > 0.0f)
+        groups[WEIR_ITEMS_STEP] += weir_workgroups_of(traits->share_threads, traits->lanes * solid_particles);
     groups[WEIR_ITEMS_SOLID_SHARES] = weir_workgroups(traits->lanes * solid_particles) + 1; // the clock's
     groups[WEIR_ITEMS_SOLIDS] = weir_workgroups(solid_particles);
     groups[WEIR_ITEMS_BLOCKS] = traits->block_count;
@@ -231,8 +238,9 @@ static void write_schedule(WeirWcsphGpu *solver, uint32_t next_due[2])
 
 static void write_control(WeirWcsphGpu *solver)
 {
-    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_slot = UINT32_MAX, .starting = 1, .sorting = 1};
-    control.next_allowance = solver->traits.least_allowance;
+    WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_slot = UINT32_MAX, .starting = 1};
+    control.clock.sorting = 1;
+    control.clock.next_allowance = solver->traits.least_allowance;
     write_schedule(solver, control.next_due);
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
     solver->seen = control;
@@ -312,7 +320,7 @@ static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
     weir_pass_groups(common->gpu, groups, sorting[WEIR_SORT_PARTICLES]);
     weir_pass_groups(common->gpu, scan_blocks, sorting[WEIR_SORT_BLOCKS]);
     weir_pass_groups(common->gpu, 1, sorting[WEIR_SORT_ONE]);
-    weir_buffers_write(&common->buffers, WEIR_WCSPH_sort_groups, sizes, sizeof sizes);
+    weir_buffers_write(&common->buffers, WEIR_WCSPH_step_end, sizes, sizeof sizes);
     solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
 }
 

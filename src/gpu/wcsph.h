@@ -6,7 +6,7 @@
 //     |                                                  |
 //     +-- finish (with the next step's drift) -----------+
 //
-// Of fluid finish is a part of forces; where solids move, that of their particles is a pass of its own after solid_forces and solids.
+// In 2D where no solid moves forces is all of it, time_step too. Of fluid finish is a part of forces; where solids move, that of their particles is a pass of its own after solid_forces and solids.
 //
 // `coordinate` and `motion` hold three copies of the particles: the state between calls, and two working copies, one
 // read and one written in turn by the steps of a batch. Particles keep their slots until the device finds that lists and
@@ -18,6 +18,7 @@
 #include "gpu/solver.h"
 
 #include <assert.h>
+#include <stddef.h>
 
 // WEIR_BUFFER(name): storage buffers. WEIR_PARTS(name, element, written): those that may lie in several parts (buffers.h).
 // WEIR_SIZES(name): sizes of dispatches. Bytes of each: weir_gpu_wcsph_sizes().
@@ -32,7 +33,6 @@
     WEIR_PARTS(neighbor_list, "vec2u", "vec4u")                                                              \
     WEIR_BUFFER(sorted_id)                                                                                   \
     WEIR_PARTS(kicked, "vec4f", NULL)                                                                        \
-    WEIR_BUFFER(density_rate)                                                                                \
     WEIR_BUFFER(solid_state)                                                                                 \
     WEIR_BUFFER(solid_particle)                                                                              \
     WEIR_BUFFER(blocks)                                                                                      \
@@ -45,7 +45,7 @@
     WEIR_BUFFER(looks)                                                                                       \
     WEIR_BUFFER(gathered)                                                                                    \
     WEIR_BUFFER(found)                                                                                       \
-    WEIR_SIZES(sort_groups)                                                                                  \
+    WEIR_SIZES(step_end)                                                                                     \
     WEIR_BUFFER(control)
 
 typedef enum WeirWcsphBuffer {
@@ -92,7 +92,7 @@ typedef enum WeirWcsphGpuPass {
     WEIR_WCSPH_PASS_TOTAL
 } WeirWcsphGpuPass;
 
-// Sizes of dispatches in sort_groups: of passes over particles, over blocks of cells, and of one workgroup; first as the
+// Sizes of dispatches in step_end: of passes over particles, over blocks of cells, and of one workgroup; first as the
 // device decides them for the next sort, then as they are if there is one.
 enum { WEIR_SORT_PARTICLES, WEIR_SORT_BLOCKS, WEIR_SORT_ONE, WEIR_SORT_SIZES };
 
@@ -113,6 +113,7 @@ typedef struct WeirWcsphTraits {
         list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many
     uint32_t row_height, layer_height;        // of cells, quanta
     uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
+    bool one_pass;                            // forces is the whole step: in 2D where no solid moves
     bool marks_mixed;                         // lists of fluid alone are summed apart from others
 } WeirWcsphTraits;
 
@@ -121,23 +122,40 @@ enum { WEIR_SOLID_BLOCK = 1024 };
 // Ids whose empty slots pass vacancies counts together.
 enum { WEIR_VACANCY_BLOCK = 128 };
 
-// `struct Control` in shaders/common/state.wgsl. Times: low and high word of a count of 2^-42 s.
-typedef struct WeirWcsphControl {
-    uint32_t until[2];
+// `struct Clock`, `Maxima` and `Control` in shaders/common/state.wgsl. Times: low and high word of a count of 2^-42 s.
+typedef struct WeirWcsphClock {
     uint32_t steps_left, running, stepping, steps;
     uint32_t time[2], began[2];
     float dt, next_dt, free_dt, max_speed;
-    uint32_t bad_id, starting;
-    int32_t bad_place[4];
-    uint32_t emitted, restored, side, last_side, sorting, stale;
-    uint32_t travelled, reached, sorted_at, allowance, next_due[2], next_allowance;
-    float solid_speed;
-    uint32_t unused[30];
+    uint32_t side, last_side, sorting, stale;
+    uint32_t travelled, next_allowance, noting;
+    float left;
+} WeirWcsphClock;
+
+typedef struct WeirWcsphMaxima {
     uint32_t speed_bits, acceleration_bits, error_bits;
+    uint32_t moved_finish, moved_drift, bad;
+    uint32_t unused[26];
+} WeirWcsphMaxima;
+
+typedef struct WeirWcsphControl {
+    uint32_t until[2];
+    uint32_t steps_asked, restored, starting, emitted;
+    float solid_speed;
+    uint32_t bad_id;
+    int32_t bad_place[4];
+    uint32_t next_due[2], sorted_at, allowance;
+    WeirWcsphClock clock;
+    uint32_t unused[28];
+    WeirWcsphClock clocks[3];
+    uint32_t unused_too[4];
+    WeirWcsphMaxima maxima[3];
     uint32_t bad_particles, bad_step, bad_slot; // bad_step UINT32_MAX: none
-    uint32_t drained, lost, moved_finish[2], moved_drift[2];
+    uint32_t drained, lost, unused_at_last[3];
 } WeirWcsphControl;
-static_assert(sizeof(WeirWcsphControl) == 304, "the layout of the shaders' struct");
+static_assert(offsetof(WeirWcsphControl, clocks) == 256 && offsetof(WeirWcsphControl, maxima) == 512 &&
+                  sizeof(WeirWcsphControl) == 928,
+              "the layout of the shaders' struct");
 
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 144, "strides of the shaders' arrays");
 static_assert(sizeof(WeirEmitter) == 64 && sizeof(WeirDrain) == 32, "strides of the shaders' arrays");
@@ -171,6 +189,7 @@ typedef struct WeirWcsphGpu {
     WeirWorld world; // without particles
     WeirWcsphTraits traits;
     uint32_t fluid_at_start; // particles
+    uint32_t turn;           // 0 to 2: of the next step (pass forces)
     uint32_t counted;        // steps that the device will have taken, if they are certain: it may stop before
     bool indirect;           // the device decides how many workgroups a sort's dispatches have
     bool certain;            // as many as it was asked to

@@ -124,6 +124,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     traits->list_parts = parts_of_lists(parameters, constants, most);
     bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);
     if (!lists) traits->list_parts = 0;
+    traits->one_pass = constants->dimension == 2 && !traits->moving_solids;
     traits->marks_mixed = lists && traits->solid_count > 0 && constants->dimension == 2 &&
                           constants->particle_count >= least_marked;
     if (!lists) least = most = walk_allowance;

@@ -18,10 +18,13 @@ SHADER(common_liquid)
 SHADER(common_drift)
 SHADER(common_finish)
 SHADER(common_clock)
+SHADER(common_step_end)
+SHADER(common_start)
 SHADER(common_bodies)
 SHADER(common_emitters)
 SHADER(common_lists)
 SHADER(common_near)
+SHADER(common_seen)
 SHADER(common_neighbors)
 SHADER(common_contact)
 SHADER(common_sorting)
@@ -69,7 +72,7 @@ static const WeirBufferInfo buffers[WEIR_WCSPH_BUFFER_TOTAL] = {
 enum { PARTICLES = BIT(coordinate) | BIT(motion) };
 enum { SEARCH = BIT(cell_start) | BIT(neighbor_list) };
 enum { FORCES_READS = SEARCH | BIT(solid_state) };
-enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(density_rate) | BIT(control) };
+enum { FORCES_WRITES = PARTICLES | BIT(kicked) | BIT(step_end) | BIT(control) };
 enum { SUM_READS = BIT(kicked) | BIT(solid_particle) | BIT(solid_state) | BIT(blocks) };
 
 // How shaders reach the particles and their lists (parts.h). Eight at once, or place and motion together, take one choice of
@@ -96,6 +99,8 @@ static const WeirPartFunction functions[] = {
 
 static const char *const sums_part[] = {weir_wgsl_common_sums, NULL};
 static const char *const clock_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters, NULL};
+static const char *const begin_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
+                                         weir_wgsl_common_bodies, weir_wgsl_common_step_end, NULL};
 static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
                                           weir_wgsl_common_bodies, NULL};
 static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
@@ -103,15 +108,25 @@ static const char *const finish_part[] = {weir_wgsl_common_drift, weir_wgsl_comm
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
 static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists,
                                          weir_wgsl_common_near, NULL};
-static const char *const walls_part[] = {weir_wgsl_common_clock,     weir_wgsl_common_emitters,
-                                         weir_wgsl_common_lists,     weir_wgsl_common_near,
-                                         weir_wgsl_common_neighbors, NULL};
-static const char *const forces_part[] = {weir_wgsl_common_lists,
+static const char *const walls_part[] = {
+    weir_wgsl_common_clock, weir_wgsl_common_emitters,  weir_wgsl_common_step_end,
+    weir_wgsl_common_start, weir_wgsl_common_lists,     weir_wgsl_common_near,
+    weir_wgsl_common_seen,  weir_wgsl_common_neighbors, NULL};
+static const char *const start_part[] = {weir_wgsl_common_clock, weir_wgsl_common_emitters,
+                                         weir_wgsl_common_step_end, weir_wgsl_common_start, NULL};
+static const char *const forces_part[] = {weir_wgsl_common_clock,
+                                          weir_wgsl_common_emitters,
+                                          weir_wgsl_common_step_end,
+                                          weir_wgsl_common_start,
+                                          weir_wgsl_common_lists,
                                           weir_wgsl_common_near,
                                           weir_wgsl_common_neighbors,
                                           weir_wgsl_common_contact,
                                           weir_wgsl_common_drift,
                                           weir_wgsl_common_finish,
+                                          weir_seen_parts,
+                                          weir_wgsl_common_seen,
+                                          weir_wgsl_common_neighbors,
                                           NULL};
 
 #define SOLVE(name)   #name, "pass " #name, weir_wgsl_solve_##name
@@ -119,13 +134,13 @@ static const char *const forces_part[] = {weir_wgsl_common_lists,
 #define READING(name) #name, "pass " #name "_read", weir_wgsl_wcsph_##name
 
 static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
-    [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, bodies_part, BIT(motion_rows),
-                          BIT(control) | BIT(sort_groups) | BIT(solid_state), WEIR_ITEMS_ONE},
+    [WEIR_WCSPH_BEGIN] = {WCSPH(begin), NULL, begin_part, BIT(motion_rows),
+                          BIT(control) | BIT(step_end) | BIT(solid_state), WEIR_ITEMS_ONE},
     [WEIR_WCSPH_DRIFT] = {WCSPH(drift), NULL, drift_part,
-                          BIT(id) | BIT(density_rate) | BIT(solid_state) | BIT(solid_particle),
+                          BIT(id) | BIT(step_end) | BIT(solid_state) | BIT(solid_particle),
                           BIT(coordinate) | BIT(motion) | BIT(control), WEIR_ITEMS_PARTICLES},
-    [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id),
-                              BIT(vacancy) | BIT(control), WEIR_ITEMS_SORTING},
+    [WEIR_WCSPH_VACANCIES] = {WCSPH(vacancies), NULL, clock_part, BIT(coordinate) | BIT(id) | BIT(control),
+                              BIT(vacancy), WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_EMIT] = {WCSPH(emit), NULL, clock_part, BIT(nozzle),
                          BIT(vacancy) | BIT(schedule) | BIT(coordinate) | BIT(motion) | BIT(control),
                          WEIR_ITEMS_ONE},
@@ -144,14 +159,14 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                               WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, walls_part,
                           BIT(coordinate) | SEARCH | BIT(solid_particle) | BIT(solid_state),
-                          BIT(motion) | BIT(control) | BIT(sort_groups), WEIR_ITEMS_SOLID_SHARES},
+                          BIT(motion) | BIT(control) | BIT(step_end), WEIR_ITEMS_SOLID_SHARES},
     [WEIR_WCSPH_FORCES] = {WCSPH(forces), "const FORCES_READ = false;\n", forces_part, FORCES_READS,
-                           FORCES_WRITES, WEIR_ITEMS_SHARES},
+                           FORCES_WRITES, WEIR_ITEMS_STEP},
     [WEIR_WCSPH_SOLID_FORCES] = {WCSPH(solid_forces), "const FORCES_READ = false;\n", NULL, SUM_READS,
                                  BIT(solid_sum), WEIR_ITEMS_FREE_BLOCKS},
     [WEIR_WCSPH_SOLIDS] = {WCSPH(solids), NULL, bodies_part, BIT(solid_sum) | BIT(blocks) | BIT(motion_rows),
                            BIT(solid_state) | BIT(control), WEIR_ITEMS_ONE},
-    [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, clock_part, 0, BIT(control) | BIT(sort_groups),
+    [WEIR_WCSPH_TIME_STEP] = {WCSPH(time_step), NULL, start_part, 0, BIT(control) | BIT(step_end),
                               WEIR_ITEMS_ONE},
     [WEIR_WCSPH_FINISH] = {WCSPH(finish), NULL, finish_part, BIT(solid_particle) | BIT(solid_state),
                            PARTICLES | BIT(control), WEIR_ITEMS_SOLIDS},
@@ -208,12 +223,11 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_sorted_id].bytes = 4 * count;
     sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
-    bool fluid_first = traits->dimension == 3 && traits->solid_count > 0; // common/lists.wgsl
-    sizes[WEIR_WCSPH_cell_start].bytes = 4 * (cells + (fluid_first ? count : 0));
+    uint64_t ordered = traits->dimension == 3 && traits->solid_count > 0 ? count : solid_particles;
+    sizes[WEIR_WCSPH_cell_start].bytes = 4 * (cells + ordered); // common/lists.wgsl
     sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + count);
     sizes[WEIR_WCSPH_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
     sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->free_solids ? 2 : 1, 0};
-    sizes[WEIR_WCSPH_density_rate].bytes = 4 * count;
     sizes[WEIR_WCSPH_solid_state].bytes = 3 * solids * sizeof(WeirSolidState);
     sizes[WEIR_WCSPH_solid_particle].bytes = 16 * at_least_one(solid_particles);
     sizes[WEIR_WCSPH_blocks].bytes = 16 * at_least_one(traits->block_count);
@@ -227,7 +241,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_schedule].bytes = 16 * at_least_one(traits->emitter_count);
     sizes[WEIR_WCSPH_fluid_sums].bytes = weir_sums_bytes(constants->particle_count);
     weir_gpu_wcsph_probe_sizes(traits, sizes);
-    sizes[WEIR_WCSPH_sort_groups].bytes = 2 * 16 * WEIR_SORT_SIZES;
+    sizes[WEIR_WCSPH_step_end].bytes = 2 * 16 * WEIR_SORT_SIZES + 4 * count;
     sizes[WEIR_WCSPH_control].bytes = sizeof(WeirWcsphControl);
 }
 
@@ -255,6 +269,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     FLAG("FREE_SOLIDS", traits->free_solids);
     FLAG("SLIP_SOLIDS", traits->slip_solids);
     FLAG("CAN_EMPTY", traits->can_empty);
+    FLAG("ONE_PASS", traits->one_pass);
     FLAG("LISTS", traits->list_parts > 0);
     NUMBER("LIST_PARTS", traits->list_parts);
     FLAG("MARKS_MIXED", traits->marks_mixed);
@@ -287,7 +302,8 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
                       PASS(LOAD) | PASS(STORE) | PASS(FIRST_STEP) | PASS(HEALTH) | PASS(DIAGNOSE);
     if (traits->probe_count > 0) needed |= PASS(GATHER);
     if (traits->emitter_count > 0) needed |= PASS(VACANCIES) | PASS(EMIT);
-    needed |= traits->solid_count > 0 ? PASS(WALLS) | PASS(SOLID_FORCES_READ) : PASS(TIME_STEP);
+    if (traits->solid_count > 0) needed |= PASS(WALLS) | PASS(SOLID_FORCES_READ);
+    if (traits->solid_count == 0 && !traits->one_pass) needed |= PASS(TIME_STEP);
     if (traits->free_solids) needed |= PASS(SOLID_FORCES);
     if (traits->moving_solids) needed |= PASS(SOLIDS) | PASS(FINISH);
 #undef PASS

@@ -25,21 +25,22 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
 {
     WeirWcsphGpu *solver = (WeirWcsphGpu *)common;
     if (!copy) return;
-    uint32_t steps = solver->seen.steps;
+    uint32_t steps = solver->seen.clock.steps;
     memcpy(&solver->seen, copy, sizeof solver->seen);
     const WeirWcsphControl *seen = &solver->seen;
+    const WeirWcsphMaxima *maxima = &seen->maxima[seen->clock.noting];
     if (common->health_known_work == common->work) {
-        solver->counted = seen->steps;
+        solver->counted = seen->clock.steps;
         solver->certain = true;
     }
-    if (seen->steps < steps) solver->steps_before += (uint64_t)UINT32_MAX + 1;
+    if (seen->clock.steps < steps) solver->steps_before += (uint64_t)UINT32_MAX + 1;
     const WeirConstants *constants = &common->constants;
     WeirHealth *health = &common->health;
-    health->steps = solver->steps_before + seen->steps;
-    health->time = seconds_of(seen->time);
-    health->time_step = seen->free_dt;
-    health->max_speed = float_of(seen->speed_bits);
-    health->max_density_error = float_of(seen->error_bits);
+    health->steps = solver->steps_before + seen->clock.steps;
+    health->time = seconds_of(seen->clock.time);
+    health->time_step = seen->clock.free_dt;
+    health->max_speed = float_of(maxima->speed_bits);
+    health->max_density_error = float_of(maxima->error_bits);
     health->drained_particles = seen->drained;
     health->lost_particles = seen->lost;
     health->fluid_particles = solver->fluid_at_start + seen->emitted - seen->drained - seen->lost;
@@ -229,8 +230,8 @@ static void order_evaluated(WeirWcsphGpu *solver, const View *view, WeirState *s
 
 void weir_gpu_wcsph_take_moment(const WeirWcsphGpu *solver, const WeirWcsphControl *control, WeirState *state)
 {
-    state->step = solver->steps_before + control->steps;
-    state->time = seconds_of(control->time);
+    state->step = solver->steps_before + control->clock.steps;
+    state->time = seconds_of(control->clock.time);
 }
 
 static WeirStatus take_motion(WeirWcsphGpu *solver, const View *view, WeirState *state)
@@ -264,7 +265,7 @@ WeirStatus weir_gpu_wcsph_take_state(WeirGpuSolver *common, void *found)
     if (bad) {
         // The sorted particles are half a step before the end of the bad one.
         --state->step;
-        state->time -= 0.5 * (double)view.control->dt;
+        state->time -= 0.5 * (double)view.control->clock.dt;
     }
     return WEIR_OK;
 }
@@ -287,7 +288,7 @@ WeirStatus weir_gpu_wcsph_take_sums(WeirGpuSolver *common, void *found)
     WeirDiagnosticSums *sums = found;
     const WeirWcsphControl *control = weir_sums_take(common, sums);
     if (control->bad_step != UINT32_MAX) return WEIR_ERROR_UNSTABLE;
-    sums->step = solver->steps_before + control->steps;
-    sums->time = seconds_of(control->time);
+    sums->step = solver->steps_before + control->clock.steps;
+    sums->time = seconds_of(control->clock.time);
     return WEIR_OK;
 }

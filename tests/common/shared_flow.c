@@ -180,6 +180,48 @@ static void walls_hold_a_splash(const WeirBackend *backend)
     }
 }
 
+// Force on all particles but by gravity over a particle's mass, per axis, and the sum of what acts on the walls'.
+static double forces_of(WeirSim *sim, const double gravity[3], double sum[3])
+{
+    uint32_t dimension = weir_sim_dimension(sim), slots = weir_sim_fluid_slots(sim),
+             count = weir_sim_particle_count(sim);
+    double on_walls = 0;
+    float *acceleration = weir_test_read(sim, WEIR_FIELD_ACCELERATION);
+    for (uint32_t i = 0; i < count; ++i)
+        for (uint32_t axis = 0; axis < dimension; ++axis) {
+            double a = acceleration[dimension * i + axis];
+            sum[axis] += i < slots ? a - gravity[axis] : a;
+            on_walls += i < slots ? 0 : fabs(a);
+        }
+    free(acceleration);
+    return on_walls;
+}
+
+// Walls feel what they do to the fluid, whoever of both finds the pressure between them (docs/wcsph.md, "Walls").
+static void action_at_walls_is_reaction(const WeirBackend *backend)
+{
+    static const double gravity[3] = {2, -9.81, 1};
+    for (uint32_t n = 0; n < 4; ++n) {
+        uint32_t dimension = 2 + n % 2;
+        WeirScene *scene = weir_test_tank(dimension, 0.4, 0.4, dimension == 3 ? 0.04 : 0.02);
+        CHECK_SCENE(scene,
+                    weir_scene_add_box(scene, (double[]){0, 0, 0}, (double[]){0.2, 0.3, 0.4},
+                                       (double[]){-1, -0.5, 0.3}),
+                    WEIR_OK);
+        weir_test_set(scene, "viscosity", 1);
+        weir_test_choose(scene, "equation_of_state", n < 2 ? "linear" : "tait");
+        double given[3] = {gravity[0], gravity[1], dimension == 3 ? gravity[2] : 0}, sum[3] = {0, 0, 0};
+        CHECK_SCENE(scene, weir_scene_set_numbers(scene, "parameters.gravity", given, dimension), WEIR_OK);
+        WeirSim *sim = weir_test_sim(scene, backend, 0);
+        weir_test_step(sim, 60);
+        double on_walls = forces_of(sim, given, sum);
+        assert_true(on_walls > 100);
+        for (uint32_t axis = 0; axis < dimension; ++axis) CHECK_NEAR(sum[axis], 0, 2e-5 * on_walls);
+        weir_sim_destroy(sim);
+        weir_scene_destroy(scene);
+    }
+}
+
 // A block thrown into a corner at half the speed of sound, in 2D and 3D: nothing leaks, nothing blows up.
 static void walls_hold_fast_fluid(const WeirBackend *backend)
 {
@@ -526,6 +568,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(a_blow_up_is_found_and_the_last_good_state_kept),
     WEIR_SHARED_TEST(a_slow_speed_of_sound_is_told),
     WEIR_SHARED_TEST(walls_hold_a_splash),
+    WEIR_SHARED_TEST(action_at_walls_is_reaction),
     WEIR_SHARED_TEST(walls_hold_fast_fluid),
     WEIR_SHARED_TEST(a_flyer_shakes_nothing_else),
     WEIR_SHARED_TEST(shifting_makes_no_pairs),

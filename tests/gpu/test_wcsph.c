@@ -303,7 +303,7 @@ static void outrun_lists_lose_nobody(void **state)
             take_steps(on_gpu, 3, INFINITY);
             take_steps(on_cpu, 3, INFINITY);
             health_of(on_gpu);
-            outrun += solver->seen.travelled - solver->seen.sorted_at > solver->seen.allowance;
+            outrun += solver->seen.clock.travelled - solver->seen.sorted_at > solver->seen.allowance;
         }
         assert_true(outrun > 5);
         assert_int_equal(solver->seen.allowance, 1);

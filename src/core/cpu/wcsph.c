@@ -147,6 +147,7 @@ static void point_to_sorted(WeirWcsph *solver)
         data->velocity[axis] = solver->sorted.velocity[axis];
     }
     data->excess = solver->sorted.excess;
+    data->walls_by_pair = solver->walls_by_pair;
     data->rate = solver->sorted.rate;
     data->dt = solver->dt;
     data->second_half = 0.5f * solver->dt * solver->constants.inverse_quantum;
@@ -187,20 +188,41 @@ static void timed(WeirWcsph *solver, WeirWcsphPass pass, void (*run)(WeirWcsph *
     solver->pass_seconds[pass] = weir_seconds() - begin;
 }
 
-static void evaluate(WeirWcsph *solver)
+static void sort(WeirWcsph *solver)
 {
     timed(solver, WEIR_WCSPH_COUNT, count);
     timed(solver, WEIR_WCSPH_SCAN, scan);
     timed(solver, WEIR_WCSPH_SCATTER, scatter);
+}
+
+static void evaluate(WeirWcsph *solver)
+{
+    sort(solver);
     timed(solver, WEIR_WCSPH_WALLS, weir_wcsph_walls);
     timed(solver, WEIR_WCSPH_FORCES, forces);
+}
+
+// `forces` needs of walls but the velocity for friction, and takes that of the step before: so a GPU needs one pass for both.
+// docs/wcsph.md, "Walls".
+static void evaluate_by_pair(WeirWcsph *solver)
+{
+    bool friction = solver->constants.friction_factor != 0.0f;
+    sort(solver);
+    if (friction) weir_wcsph_recall_seen(solver);
+    timed(solver, WEIR_WCSPH_FORCES, forces);
+    solver->pass_seconds[WEIR_WCSPH_WALLS] = 0.0;
+    if (friction) timed(solver, WEIR_WCSPH_WALLS, weir_wcsph_walls);
+    if (friction) weir_wcsph_keep_seen(solver);
 }
 
 static void take_step(WeirWcsph *solver)
 {
     timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step); // the next one's
     timed(solver, WEIR_WCSPH_DRIFT, weir_wcsph_drift);
-    evaluate(solver);
+    if (solver->walls_by_pair)
+        evaluate_by_pair(solver);
+    else
+        evaluate(solver);
     timed(solver, WEIR_WCSPH_SOLIDS, weir_wcsph_solids);
     timed(solver, WEIR_WCSPH_KICK, weir_wcsph_kick);
     timed(solver, WEIR_WCSPH_FINISH, weir_wcsph_finish);
@@ -210,6 +232,7 @@ static void take_step(WeirWcsph *solver)
 static void choose_first_step(WeirWcsph *solver)
 {
     evaluate(solver);
+    weir_wcsph_keep_seen(solver);
     weir_wcsph_begin_maxima(solver);
     for (uint32_t i = 0; i < solver->active; ++i) {
         if (!weir_group_is_fluid(solver->sorted.group[i])) continue;

@@ -77,9 +77,12 @@ typedef struct WeirWcsph {
     float *local;      // 3 per solid particle: where it is from its solid's reference point at the start, m
     float *bulk;       // by solid: weir_solid_bulk()
     float *
+        seen; // 3 per solid particle, with walls_by_pair: the velocity that fluid sees, of the step before, m/s
+    float *
         solid_force; // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid, of contact, N; mass of fluid, kg
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
+    bool walls_by_pair;         // in 2D where no solid moves: WeirWcsphData
     uint32_t emission_interval; // weir_world_emission_interval()
     float dt, free_dt;          // of the step that is being taken; the same, if nothing had shortened it
     WeirWcsphClock clock;
@@ -137,6 +140,9 @@ void weir_wcsph_take_maxima(WeirWcsph *solver);
 void weir_wcsph_solid_velocities(WeirWcsph *solver, const WeirWcsphParticles *particles, bool surface,
                                  float *const velocity[3]);
 void weir_wcsph_walls(WeirWcsph *solver);
+// The velocities that walls found for fluid to see: for the next step; and those of the step before. With walls_by_pair.
+void weir_wcsph_keep_seen(WeirWcsph *solver);
+void weir_wcsph_recall_seen(WeirWcsph *solver);
 void weir_wcsph_solids(WeirWcsph *solver);
 // Places the particles of moving solids.
 void weir_wcsph_place_solids(WeirWcsph *solver, WeirWcsphParticles *particles);

@@ -237,7 +237,7 @@ typedef struct ForceLanes {
     float second_half_in_supports;               // 3/2 of second_half, in supports
     float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
-    WeirLanes support2, stick, barrier, barrier_reach, pressure;
+    WeirLanes support2, stick, barrier, barrier_reach, pressure, inverse_density;
     Vector seen_velocity, velocity;
 } ForceLanes;
 
@@ -267,6 +267,7 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
         .stick = weir_lanes_load(data->stick + begin),
         .barrier = weir_lanes_load(data->barrier + begin),
         .pressure = weir_lanes_load(data->pressure + begin),
+        .inverse_density = weir_lanes_load(data->inverse_density + begin),
         .seen_velocity = load((const float *const *)data->seen_velocity, begin, variant),
         .velocity = load(data->velocity, begin, variant),
     };
@@ -312,8 +313,8 @@ INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, 
 // What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
 // places at the step's end, between two densities. `v`, `approach`: the velocity to it, if it is fluid, and v . x.
 INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
-                      WeirLanes inverse_r, WeirLanes s, Vector v, WeirLanes approach, Variant variant,
-                      ForceSums *sums)
+                      WeirLanes inverse_r, WeirLanes s, WeirLanes inverse_density, Vector v,
+                      WeirLanes approach, Variant variant, ForceSums *sums)
 {
     bool fluid = data->is_fluid[j] != 0.0f;
     if (!fluid) {
@@ -322,11 +323,29 @@ INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t
     }
     WeirLanes end_approach = approach + data->second_half * dot(v, v, variant);
     WeirLanes slope = slope_at_end(data, own, r2, inverse_r, s, approach + end_approach, variant);
-    sums->divergence += slope * data->inverse_density[j] * end_approach;
+    sums->divergence += slope * inverse_density * end_approach;
     if (!fluid) return;
-    WeirLanes weight = rest_to(1.0f, s) * data->inverse_density[j];
+    WeirLanes weight = rest_to(1.0f, s) * inverse_density;
     sums->laplacian += weight * (data->pressure[j] - own->pressure);
     add_scaled(&sums->moment, weight, x, variant);
+}
+
+// A solid that stays where it is, as one fluid particle sees it at `offset` = fluid - solid: that particle's pressure and the weight
+// of the fluid between them. It never pulls. docs/wcsph.md, "Walls".
+typedef struct SeenWall {
+    WeirLanes pressure, inverse_density;
+} SeenWall;
+
+INLINE SeenWall seen_wall(const WeirWcsphData *data, WeirLanes fluid_pressure, Vector offset, Variant variant)
+{
+    const WeirLanes zero = {0};
+    const float *gravity = data->parameters->gravity, sound = data->constants->sound_speed;
+    float rest_density = data->parameters->rest_density, weight = rest_density * data->constants->quantum;
+    WeirLanes fall = (weight * gravity[0]) * offset.x + (weight * gravity[1]) * offset.y;
+    if (variant.three_dimensional) fall += (weight * gravity[2]) * offset.z;
+    WeirLanes pressure = weir_lanes_max(fluid_pressure - fall, zero);
+    WeirLanes excess = (pressure - data->parameters->background_pressure) * (1.0f / (sound * sound));
+    return (SeenWall){pressure, 1.0f / (excess + rest_density)};
 }
 
 // Adds candidate j at x = x_i - x_j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of
@@ -336,10 +355,23 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
 {
     r2 += 1.0f; // quantum, so that it can be divided by
     WeirLanes r = weir_lanes_sqrt(r2), inverse_r = 1.0f / r, s = r * own->inverse_support;
-    WeirLanes slope = kernel_slope(s, variant) * data->inverse_density[j];
+    WeirLanes pressure = weir_lanes_fill(data->pressure[j]),
+              inverse_density = weir_lanes_fill(data->inverse_density[j]);
+    if (data->walls_by_pair && solids) {
+        // Here and in pressure_acceleration() what stands for the own values is this pair's.
+        Vector back = {-x.x, -x.y, -x.z};
+        SeenWall wall = seen_wall(data, pressure, back, variant);
+        pressure += wall.pressure;
+        inverse_density *= wall.inverse_density / own->inverse_density;
+    } else if (data->walls_by_pair && data->is_fluid[j] == 0.0f) {
+        SeenWall wall = seen_wall(data, own->pressure, x, variant);
+        pressure = wall.pressure;
+        inverse_density = wall.inverse_density;
+    }
+    WeirLanes slope = kernel_slope(s, variant) * inverse_density;
     Vector v = less(own->seen_velocity, (const float *const *)data->seen_velocity, j, variant);
     WeirLanes approach = dot(v, x, variant);
-    add_scaled(&sums->pressure, slope * data->pressure[j], x, variant);
+    add_scaled(&sums->pressure, slope * pressure, x, variant);
     add_scaled(&sums->gradient, slope, x, variant);
     if (data->is_fluid[j] != 0.0f && !solids) {
         if (own->viscous) add_scaled(&sums->viscous, slope * approach * (inverse_r * inverse_r), x, variant);
@@ -349,12 +381,12 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
         add_barrier(data, own, j, x, r, variant, &sums->barrier);
     }
     WeirLanes shape = kernel_shape(s, variant);
-    sums->filling += shape * data->inverse_density[j];
+    sums->filling += shape * inverse_density;
     if (solids) return;
     sums->surface += slope * r2;
     if (own->clustering)
         add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
-    add_rates(data, own, j, x, r2, inverse_r, s, v, approach, variant, sums);
+    add_rates(data, own, j, x, r2, inverse_r, s, inverse_density, v, approach, variant, sums);
 }
 
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
@@ -379,11 +411,11 @@ INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *grou
 // By pressure. `inside`: lanes of fluid whose support is full, where tension control makes a negative pressure act by its
 // difference.
 INLINE Vector pressure_acceleration(const WeirWcsphData *data, const ForceSums *sums, uint32_t begin,
-                                    WeirMask inside, Variant variant)
+                                    WeirMask inside, Variant variant, bool solids)
 {
     const WeirConstants *constants = data->constants;
     const WeirLanes zero = {0};
-    WeirLanes own = weir_lanes_load(data->pressure + begin);
+    WeirLanes own = data->walls_by_pair && solids ? zero : weir_lanes_load(data->pressure + begin);
     if (data->parameters->tension_control == WEIR_TENSION_CONTROL_ON)
         own = weir_lanes_select(inside & (WeirMask)(own < zero), -own, own);
     WeirLanes scale = -(constants->particle_mass * weir_lanes_load(data->inverse_density + begin) *
@@ -529,7 +561,7 @@ INLINE void fluid_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
     WeirLanes surface = full * sums.surface, rate;
     WeirMask inside = (WeirMask)(surface >= 0.95f * (float)constants->dimension);
     WeirMask fluid = chosen(data->is_fluid, begin, group->lanes);
-    Vector push = pressure_acceleration(data, &sums, begin, inside, variant), acceleration = push;
+    Vector push = pressure_acceleration(data, &sums, begin, inside, variant, false), acceleration = push;
     add_viscous_forces(data, &sums, begin, inside, variant, &acceleration);
     add_body_forces(data, begin, &acceleration, variant);
     Vector shift = shift_of(data, &sums, inside, &rate, variant);
@@ -550,7 +582,7 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
     if (any_set(data->is_fluid, begin, group->lanes)) fluid_group(data, group, begin, variant);
     if (any_set(data->needs_force, begin, group->lanes)) {
         ForceSums sums = sum_forces(data, group, begin, variant, true);
-        Vector acceleration = pressure_acceleration(data, &sums, begin, (WeirMask){0}, variant);
+        Vector acceleration = pressure_acceleration(data, &sums, begin, (WeirMask){0}, variant, true);
         add_viscous_forces(data, &sums, begin, (WeirMask){0}, variant, &acceleration);
         WeirMask takes = chosen(data->needs_force, begin, group->lanes);
         store_where(data->acceleration, begin, acceleration, takes);

@@ -14,16 +14,17 @@ typedef struct WeirWcsphData {
     float due_excess;    // kg/m^3, the most that weight and motion alone give fluid near a surface
     float dt;            // s, of this step; 0 where only the forces are wanted
     float second_half;   // quanta per m/s: how far a velocity moves a particle in the second half of the step
+    bool walls_by_pair;  // each neighbour of a solid's particle finds the pressure there by itself
     const int32_t *x[3]; // coordinates, quanta
     const float *velocity[3]; // m/s, at the start of the step
     float *is_fluid;          // 1 fluid, 0 solid
     float *stick;             // 1 fluid and no-slip solids, 0 free-slip solids
     float *barrier;           // of solids: weir_solid_barrier(); of fluid 1
     float *needs_force;       // solids: 1 if the force on the particle is wanted
-    float *excess;            // density less rest density, kg/m^3; of solids: of their extrapolated pressure
-    float *inverse_density;   // m^3/kg
-    float *pressure;          // Pa
-    float *seen_velocity[3];  // as `forces` sees it: of no-slip solids mirrored
+    float *excess; // density less rest density, kg/m^3; of solids: of the pressure that walls extrapolates
+    float *inverse_density;  // m^3/kg
+    float *pressure;         // Pa
+    float *seen_velocity[3]; // as `forces` sees it: of no-slip solids mirrored
     float *new_velocity
         [3]; // m/s; of solids: their own, without what their surface slides, for `forces`; of fluid: after the kick
     float *acceleration[3]; // m/s^2; of solids: force of the fluid on the particle over the particle mass

@@ -78,6 +78,7 @@ static bool copy_world(WeirWcsph *solver, const WeirWorld *world)
         solver->has_moving_solids = solver->has_moving_solids || world->solids[n].kind != WEIR_SOLID_FIXED;
         solver->has_free_bodies = solver->has_free_bodies || world->solids[n].kind == WEIR_SOLID_FREE;
     }
+    solver->walls_by_pair = solver->constants.dimension == 2 && !solver->has_moving_solids;
     return good;
 }
 
@@ -106,9 +107,10 @@ bool weir_wcsph_allocate(WeirWcsph *solver, const WeirSolverSetup *setup)
         calloc(solver->has_emitters ? setup->constants.first_solid + 1 : 1, sizeof *solver->vacancy);
     solver->local = calloc(3 * solid_particles + 1, sizeof *solver->local);
     solver->bulk = calloc(solids, sizeof *solver->bulk);
+    solver->seen = calloc(3 * solid_particles + 1, sizeof *solver->seen);
     solver->solid_force = calloc(WEIR_WCSPH_SOLID_FORCES * solid_particles + 1, sizeof *solver->solid_force);
     return solver->solids && solver->snapshot.solids && solver->emitters && solver->vacancy &&
-           solver->local && solver->bulk && solver->solid_force;
+           solver->local && solver->bulk && solver->seen && solver->solid_force;
 }
 
 void weir_wcsph_free(WeirWcsph *solver)
@@ -126,6 +128,7 @@ void weir_wcsph_free(WeirWcsph *solver)
     free(solver->vacancy);
     free(solver->local);
     free(solver->bulk);
+    free(solver->seen);
     free(solver->solid_force);
     if (solver->host) {
         free(solver->host->position);
