@@ -85,6 +85,12 @@ static void gather_particles(const WeirWcsph *solver, uint32_t begin, uint32_t e
     gather(to->group, from->group, slot, begin, end);
 }
 
+// Of a solid's particle, by its sorted place: the velocity that fluid sees, of the step before.
+static const float *seen_of(const WeirWcsph *solver, uint32_t k)
+{
+    return solver->seen + 3 * (size_t)(solver->sorted.id[k] - solver->constants.first_solid);
+}
+
 // What follows from a particle alone and the sums need; pass `walls` has the rest for solids.
 static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
 {
@@ -103,6 +109,8 @@ static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
         data->stick[k] = data->barrier[k] = 1.0f;
         data->needs_force[k] = 0.0f;
         if (!weir_group_is_solid(group)) continue;
+        if (solver->walls_by_pair)
+            for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = seen_of(solver, k)[axis];
         const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
         data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
         data->barrier[k] = weir_solid_barrier(solid, &solver->solids[group - WEIR_GROUP_SOLID],
@@ -206,13 +214,13 @@ static void evaluate(WeirWcsph *solver)
 // docs/wcsph.md, "Walls".
 static void evaluate_by_pair(WeirWcsph *solver)
 {
-    bool friction = solver->constants.friction_factor != 0.0f;
     sort(solver);
-    if (friction) weir_wcsph_recall_seen(solver);
     timed(solver, WEIR_WCSPH_FORCES, forces);
     solver->pass_seconds[WEIR_WCSPH_WALLS] = 0.0;
-    if (friction) timed(solver, WEIR_WCSPH_WALLS, weir_wcsph_walls);
-    if (friction) weir_wcsph_keep_seen(solver);
+    if (solver->constants.friction_factor == 0.0f) return;
+    solver->keeps_seen = true;
+    timed(solver, WEIR_WCSPH_WALLS, weir_wcsph_walls);
+    solver->keeps_seen = false;
 }
 
 static void take_step(WeirWcsph *solver)
@@ -231,8 +239,9 @@ static void take_step(WeirWcsph *solver)
 // The first two time steps follow from the accelerations and speeds at the start.
 static void choose_first_step(WeirWcsph *solver)
 {
+    solver->keeps_seen = solver->walls_by_pair;
     evaluate(solver);
-    weir_wcsph_keep_seen(solver);
+    solver->keeps_seen = false;
     weir_wcsph_begin_maxima(solver);
     for (uint32_t i = 0; i < solver->active; ++i) {
         if (!weir_group_is_fluid(solver->sorted.group[i])) continue;

@@ -83,6 +83,7 @@ typedef struct WeirWcsph {
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
     bool walls_by_pair;         // in 2D where no solid moves: WeirWcsphData
+    bool keeps_seen;            // walls leaves what fluid sees for the next step: not in a read
     uint32_t emission_interval; // weir_world_emission_interval()
     float dt, free_dt;          // of the step that is being taken; the same, if nothing had shortened it
     WeirWcsphClock clock;
@@ -140,9 +141,6 @@ void weir_wcsph_take_maxima(WeirWcsph *solver);
 void weir_wcsph_solid_velocities(WeirWcsph *solver, const WeirWcsphParticles *particles, bool surface,
                                  float *const velocity[3]);
 void weir_wcsph_walls(WeirWcsph *solver);
-// The velocities that walls found for fluid to see: for the next step; and those of the step before. With walls_by_pair.
-void weir_wcsph_keep_seen(WeirWcsph *solver);
-void weir_wcsph_recall_seen(WeirWcsph *solver);
 void weir_wcsph_solids(WeirWcsph *solver);
 // Places the particles of moving solids.
 void weir_wcsph_place_solids(WeirWcsph *solver, WeirWcsphParticles *particles);

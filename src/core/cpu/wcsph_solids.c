@@ -142,6 +142,9 @@ static void walls_chunk(void *context, uint32_t begin, uint32_t end)
         data->pressure[i] = pressure;
         data->excess[i] = (pressure - parameters->background_pressure) / stiffness;
         data->inverse_density[i] = 1.0f / (parameters->rest_density + data->excess[i]);
+        if (!solver->keeps_seen) continue;
+        float *seen = solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
+        for (int axis = 0; axis < 3; ++axis) seen[axis] = data->seen_velocity[axis][i];
     }
 }
 
@@ -149,41 +152,6 @@ void weir_wcsph_walls(WeirWcsph *solver)
 {
     if (solver->world.solid_count == 0) return;
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, walls_chunk, solver);
-}
-
-static float *seen_by(const WeirWcsph *solver, uint32_t i)
-{
-    return solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
-}
-
-static void keep_chunk(void *context, uint32_t begin, uint32_t end)
-{
-    const WeirWcsph *solver = context;
-    for (uint32_t i = begin; i < end; ++i) {
-        if (!weir_group_is_solid(solver->sorted.group[i])) continue;
-        for (int axis = 0; axis < 3; ++axis) seen_by(solver, i)[axis] = solver->data.seen_velocity[axis][i];
-    }
-}
-
-static void recall_chunk(void *context, uint32_t begin, uint32_t end)
-{
-    const WeirWcsph *solver = context;
-    for (uint32_t i = begin; i < end; ++i) {
-        if (!weir_group_is_solid(solver->sorted.group[i])) continue;
-        for (int axis = 0; axis < 3; ++axis) solver->data.seen_velocity[axis][i] = seen_by(solver, i)[axis];
-    }
-}
-
-void weir_wcsph_keep_seen(WeirWcsph *solver)
-{
-    if (solver->world.solid_count == 0 || !solver->walls_by_pair) return;
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, keep_chunk, solver);
-}
-
-void weir_wcsph_recall_seen(WeirWcsph *solver)
-{
-    if (solver->world.solid_count == 0 || !solver->walls_by_pair) return;
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, recall_chunk, solver);
 }
 
 // ---- Forces on solids ----
