@@ -9,3 +9,8 @@ fn any_layer_due(clock: Clock) -> bool {
     let next_chance = add_ticks(middle_of_step(clock), ticks_of(f32(EMISSION_INTERVAL) * clock.free_dt));
     return EMITTER_COUNT > 0u && chance && !is_before(next_chance, control.next_due);
 }
+
+// Whether layers are born before the step under way. `bad_step`: of control, which passes hold in two types.
+fn is_emitting(bad_step: u32) -> bool {
+    return is_well(bad_step, 0u) && control.clock.next_dt > 0.0 && any_layer_due(control.clock);
+}

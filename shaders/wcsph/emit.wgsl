@@ -9,10 +9,6 @@
 @group(0) @binding(BINDING_schedule) var<storage, read_write> schedule: array<vec4u>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
-fn is_emitting() -> bool {
-    return is_well(control.bad_step, 0u) && control.clock.next_dt > 0.0 && any_layer_due(control.clock);
-}
-
 const NEVER = vec2u(0xffffffffu);
 
 // Particles that the emitters' layers want; then how many are born before theirs.
@@ -123,7 +119,7 @@ fn plan(n: u32) -> vec2u {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn emit(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        shared_count = select(0u, 1u, is_emitting());
+        shared_count = select(0u, 1u, is_emitting(control.bad_step));
     }
     if workgroupUniformLoad(&shared_count) == 0u {
         return;

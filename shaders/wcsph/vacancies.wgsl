@@ -6,14 +6,10 @@
 @group(0) @binding(BINDING_vacancy) var<storage, read_write> vacancy: array<atomic<u32>>;
 @group(0) @binding(BINDING_control) var<storage, read> control: Control;
 
-fn is_emitting() -> bool {
-    return is_well(control.bad_step, 0u) && control.clock.next_dt > 0.0 && any_layer_due(control.clock);
-}
-
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn vacancies(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
              @builtin(local_invocation_index) local: u32) {
-    if !is_emitting() {
+    if !is_emitting(control.bad_step) {
         return;
     }
     let threads = workgroups.x * workgroups.y * WORKGROUP_SIZE;

@@ -85,12 +85,6 @@ static void gather_particles(const WeirWcsph *solver, uint32_t begin, uint32_t e
     gather(to->group, from->group, slot, begin, end);
 }
 
-// Of a solid's particle, by its sorted place: the velocity that fluid sees, of the step before.
-static const float *seen_of(const WeirWcsph *solver, uint32_t k)
-{
-    return solver->seen + 3 * (size_t)(solver->sorted.id[k] - solver->constants.first_solid);
-}
-
 // What follows from a particle alone and the sums need; pass `walls` has the rest for solids.
 static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
 {
@@ -110,7 +104,8 @@ static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
         data->needs_force[k] = 0.0f;
         if (!weir_group_is_solid(group)) continue;
         if (solver->walls_by_pair)
-            for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = seen_of(solver, k)[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                data->seen_velocity[axis][k] = weir_wcsph_seen(solver, k)[axis];
         const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
         data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
         data->barrier[k] = weir_solid_barrier(solid, &solver->solids[group - WEIR_GROUP_SOLID],

@@ -126,6 +126,12 @@ static inline bool weir_group_is_fluid(uint32_t group)
     return group == WEIR_GROUP_FLUID || (group >= WEIR_GROUP_INLET && group != WEIR_GROUP_EMPTY);
 }
 
+// Of a solid's sorted particle i: what stands for it in `seen`.
+static inline float *weir_wcsph_seen(const WeirWcsph *solver, uint32_t i)
+{
+    return solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
+}
+
 // ---- wcsph_motion.c ----
 void weir_wcsph_drift(WeirWcsph *solver);
 void weir_wcsph_kick(WeirWcsph *solver);

@@ -143,8 +143,7 @@ static void walls_chunk(void *context, uint32_t begin, uint32_t end)
         data->excess[i] = (pressure - parameters->background_pressure) / stiffness;
         data->inverse_density[i] = 1.0f / (parameters->rest_density + data->excess[i]);
         if (!solver->keeps_seen) continue;
-        float *seen = solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
-        for (int axis = 0; axis < 3; ++axis) seen[axis] = data->seen_velocity[axis][i];
+        for (int axis = 0; axis < 3; ++axis) weir_wcsph_seen(solver, i)[axis] = data->seen_velocity[axis][i];
     }
 }
 
