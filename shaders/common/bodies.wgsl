@@ -281,9 +281,9 @@ fn drifted_solid(n: u32, given: SolidState, dt: f32, time: vec2u) -> SolidState 
     return state;
 }
 
-// How far a move from one state to the other takes any particle of solid n, in quanta, not less: a turn by q moves what is
+// How far a move from one state to the other takes any particle of solid n, not less, as way_bits(): a turn by q moves what is
 // r away by at most 2 |q - 1| r. What float32 rounds of places is in it.
-fn solid_way(n: u32, before: SolidState, after: SolidState) -> u32 {
+fn solid_way_bits(n: u32, before: SolidState, after: SolidState) -> u32 {
     if solid_table[n].kind == SOLID_FIXED {
         return 0u;
     }
@@ -291,5 +291,6 @@ fn solid_way(n: u32, before: SolidState, after: SolidState) -> u32 {
     let turn = min(length(after.orientation - before.orientation), length(after.orientation + before.orientation));
     let way = length(after.position.xyz - before.position.xyz + after.rest.xyz - before.rest.xyz) + 2.0 * radius * turn
         + 1e-6 * (length(after.position.xyz - constants.origin.xyz) + radius);
-    return u32(min(way * constants.inverse_quantum, 1e8)) + 4u;
+    let quanta = min(way * constants.inverse_quantum, 1e8) + 4.0;
+    return bitcast<u32>(quanta * quanta);
 }

@@ -36,8 +36,8 @@ const VIOLENT_ERROR = 0.1;
 
 // The largest values of the last step give the longest one that may follow that under way.
 fn limit_step(clock: ptr<function, Clock>, last: Maxima) {
-    (*clock).max_speed = bitcast<f32>(last.speed_bits);
-    let acceleration = bitcast<f32>(last.acceleration_bits);
+    (*clock).max_speed = sqrt(bitcast<f32>(last.speed2_bits));
+    let acceleration = sqrt(bitcast<f32>(last.acceleration2_bits));
     (*clock).free_dt = parameters.time_step;
     if FIXED_STEP {
         return;
@@ -48,7 +48,7 @@ fn limit_step(clock: ptr<function, Clock>, last: Maxima) {
         dt = min(dt, sqrt(h / acceleration));
     }
     dt *= parameters.courant;
-    let error = bitcast<f32>(last.error_bits);
+    let error = bitcast<f32>(last.excess_bits) / parameters.rest_density;
     if error > VIOLENT_ERROR {
         dt *= max(sqrt(VIOLENT_ERROR / error), 0.1); // a step that vanishes would find no blow-up
     }
@@ -65,20 +65,40 @@ fn choose_step(clock: ptr<function, Clock>) {
     let next = select(select(free, 0.5 * left, free > 0.5 * left), left, free >= left);
     (*clock).next_dt = select(0.0, next, (*clock).steps_left > 0u);
     (*clock).running = select(0u, 1u, (*clock).next_dt > 0.0);
-    let chance = (*clock).steps % SORT_INTERVAL == 0u && (*clock).stale == 1u;
-    (*clock).sorting = select(0u, 1u, (*clock).running == 1u && (chance || any_layer_due(*clock)));
+    let lists = (*clock).stale == 1u && (*clock).steps % LIST_INTERVAL == 0u;
+    let sorts = (*clock).worn == 1u && (*clock).steps % SORT_INTERVAL == 0u && (lists || SORT_INTERVAL > LIST_INTERVAL);
+    (*clock).sorting = select(0u, 1u, (*clock).running == 1u && (sorts || any_layer_due(*clock)));
+    (*clock).listing = select((*clock).sorting, 1u, (*clock).running == 1u && lists);
 }
 
-// Whether lists and cells are to be made anew at the next chance, because they might not last until the one after it,
-// and for which way they would be made.
+// What particles of the step under way would all find alike: the speed by which shifting goes (one particle that flies faster
+// than the method is valid for must not shake all the others), the excess density for the weight of fluid one support deep and the
+// pressure rho0 v^2 / 2 at which the fastest fluid stagnates, and the diffusion of density.
+fn note_flow(clock: ptr<function, Clock>) {
+    let c = constants.sound_speed;
+    let dt = (*clock).dt;
+    let speed = min((*clock).max_speed, 0.1 * c);
+    (*clock).flow_speed = min(speed, constants.shifting_limit / dt);
+    let weight = parameters.support_radius * length(parameters.gravity.xyz);
+    (*clock).due_excess = parameters.rest_density * (weight + 0.5 * speed * speed) / (c * c);
+    (*clock).diffusion = min(parameters.density_diffusion / constants.acoustic_rate, constants.diffusion_limit / dt - dt);
+}
+
+// Whether lists are to be made anew at the next chance, because they might not last until the one after it, and for which way
+// they would be made. And whether particles are sorted too, because they might stray so far from their cells until the next
+// chance for that that lists cost more, or in 3D miss neighbours.
 fn judge_order(clock: ptr<function, Clock>, last: Maxima) {
-    let way = last.moved_finish + last.moved_drift;
+    let way = way_of(last);
     (*clock).travelled += way;
     let fastest = (*clock).max_speed * max((*clock).free_dt, (*clock).dt) * constants.inverse_quantum;
-    let until_next = f32(SORT_INTERVAL) * (1.25 * max(fastest, f32(way)) + 4.0);
-    let moved = f32((*clock).travelled - control.sorted_at);
+    let next_way = 1.25 * max(fastest, f32(way)) + 4.0;
+    let until_next = f32(LIST_INTERVAL) * next_way;
+    let moved = f32((*clock).travelled - control.listed_at);
     (*clock).stale = select(0u, 1u, moved + until_next > f32(control.allowance));
-    (*clock).next_allowance = u32(clamp(2.0 * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE));
+    let allowance = clamp(2.0 * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE);
+    (*clock).next_allowance = u32(allowance);
+    let stray = f32((*clock).travelled - control.sorted_at) + f32(SORT_INTERVAL - LIST_INTERVAL + 2u) * next_way;
+    (*clock).worn = select(0u, 1u, stray + 2.0 * allowance > MOST_STRAY);
 }
 
 // The step that is prepared begins: what the one before it noted decides how it goes on.
@@ -89,6 +109,7 @@ fn decide(clock: ptr<function, Clock>, last: Maxima) {
     }
     if (*clock).stepping == 1u {
         limit_step(clock, last);
+        note_flow(clock);
         judge_order(clock, last);
         choose_step(clock);
     }

@@ -95,6 +95,12 @@ fn barrier_of(own: vec4i, own_motion: vec4f, reach: f32) -> Vector {
     return (constants.sound_speed * constants.sound_speed / parameters.particle_spacing) * sum;
 }
 
+// Whether another solid may be as near, as far as the list of the particle says that begins so.
+fn may_touch(header: u32) -> bool {
+    let is_told = LISTS && header != NO_LIST && now().travelled - control.listed_at <= control.allowance;
+    return !is_told || (header & MEETS_SOLID) != 0u;
+}
+
 // Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
 // damped, never attracting; less so if either is light.
 fn contact_force(own: vec4i) -> Vector {
@@ -105,7 +111,7 @@ fn contact_force(own: vec4i) -> Vector {
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
     let start = side_start(now().last_side);
-    let reach = quanta_of_spacings(1.0);
+    let reach = touching_range();
     var walk = walk_around(place_of(own), i32(reach) + 4 + i32(now().travelled - control.sorted_at));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];

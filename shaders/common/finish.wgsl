@@ -16,41 +16,41 @@ fn now() -> Clock {
 // Share of the rest density below which fluid is not stretched, but torn: docs/wcsph.md.
 const LEAST_DENSITY = 0.8;
 
-// The workgroup's largest density error, as bits, and ways.
-var<workgroup> error_most: atomic<u32>; // wgpu-native does not zero them
-var<workgroup> finish_most: atomic<u32>;
-var<workgroup> drift_most: atomic<u32>;
+// The workgroup's largest density error, and squares of the longest ways, as bits.
+var<workgroup> excess_most: atomic<u32>; // wgpu-native does not zero them
+var<workgroup> finish2_most: atomic<u32>;
+var<workgroup> drift2_most: atomic<u32>;
 
 fn clear_finish() {
-    atomicStore(&error_most, 0u);
-    atomicStore(&finish_most, 0u);
-    atomicStore(&drift_most, 0u);
+    atomicStore(&excess_most, 0u);
+    atomicStore(&finish2_most, 0u);
+    atomicStore(&drift2_most, 0u);
 }
 
 fn publish_finish() {
-    if atomicLoad(&finish_most) > 0u {
-        atomicMax(&control.maxima[now().noting].error_bits, atomicLoad(&error_most));
-        atomicMax(&control.maxima[now().noting].moved_finish, atomicLoad(&finish_most));
-        atomicMax(&control.maxima[now().noting].moved_drift, atomicLoad(&drift_most));
+    if atomicLoad(&finish2_most) > 0u {
+        atomicMax(&control.maxima[now().noting].excess_bits, atomicLoad(&excess_most));
+        atomicMax(&control.maxima[now().noting].finish2_bits, atomicLoad(&finish2_most));
+        atomicMax(&control.maxima[now().noting].drift2_bits, atomicLoad(&drift2_most));
     }
 }
 
-fn take_density(excess: f32) {
-    let error = bitcast<u32>(abs(excess) / parameters.rest_density);
-    if error > atomicLoad(&error_most) {
-        atomicMax(&error_most, error);
+fn take_excess(excess: f32) {
+    let bits = bitcast<u32>(abs(excess));
+    if bits > atomicLoad(&excess_most) {
+        atomicMax(&excess_most, bits);
     }
 }
 
-fn take_finish(way: u32) {
-    if way > atomicLoad(&finish_most) {
-        atomicMax(&finish_most, way);
+fn take_finish(bits: u32) {
+    if bits > atomicLoad(&finish2_most) {
+        atomicMax(&finish2_most, bits);
     }
 }
 
-fn take_drift(way: u32) {
-    if way > atomicLoad(&drift_most) {
-        atomicMax(&drift_most, way);
+fn take_drift(bits: u32) {
+    if bits > atomicLoad(&drift2_most) {
+        atomicMax(&drift2_most, bits);
     }
 }
 
@@ -67,18 +67,12 @@ fn check_health(i: u32, speed_squared: f32, rate: f32) {
 }
 
 // The seal of the domain's own walls: no fluid stays deeper in them than half a spacing, where their first layer lies.
-const SEAL_DEPTH = 0.45; // spacings
-
 fn seal(place: ptr<function, Place>, velocity: ptr<function, Vector>) {
-    let origin = vector_of(constants.origin);
-    let depth = Vector(SEAL_DEPTH * parameters.particle_spacing);
-    let low = (vector_of(constants.domain_min) - depth - origin) * constants.inverse_quantum;
-    let high = (vector_of(constants.domain_max) + depth - origin) * constants.inverse_quantum;
-    let below = walled_axes(0u) & (Vector(*place) < low);
-    let above = walled_axes(1u) & (Vector(*place) > high);
-    *place = select(select(*place, Place(high), above), Place(low), below);
-    *velocity = select(*velocity, max(*velocity, Vector()), below);
-    *velocity = select(*velocity, min(*velocity, Vector()), above);
+    let low = place_of(constants.seal_low);
+    let high = place_of(constants.seal_high);
+    *velocity = select(*velocity, max(*velocity, Vector()), *place < low);
+    *velocity = select(*velocity, min(*velocity, Vector()), *place > high);
+    *place = clamp(*place, low, high);
 }
 
 // `kicked`: new velocity, density in the middle of the step. `shift`: shifting velocity, drho/dt.
@@ -89,7 +83,7 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
     let last_half = 0.5 * now().dt;
     check_health(i, dot(velocity, velocity), rate);
     own_motion.w = max(own_motion.w + last_half * rate, (LEAST_DENSITY - 1.0) * parameters.rest_density);
-    take_density(own_motion.w);
+    take_excess(own_motion.w);
     var way = last_half * velocity;
     if SHIFTING && u32(own.w) == GROUP_FLUID {
         way += now().dt * vector_of(shift);
@@ -99,7 +93,7 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
         seal(&place, &velocity);
         own_motion = vec4f(wide(velocity), own_motion.w);
     }
-    take_finish(way_length(place - place_of(own)));
+    take_finish(way_bits(place - place_of(own)));
     let finished = vec4i(wide_place(place), own.w);
     let half = 0.5 * now().next_dt;
     if half == 0.0 {
@@ -113,7 +107,7 @@ fn finish_fluid(i: u32, own: vec4i, kicked_motion: vec4f, shift: vec4f) {
     } else if to.fate == FATE_LOST {
         atomicAdd(&control.lost, 1u);
     }
-    take_drift(way_length(place_of(to.coordinate) - place));
+    take_drift(way_bits(place_of(to.coordinate) - place));
     leave(i, to.coordinate, own_motion);
 }
 

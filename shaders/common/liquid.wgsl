@@ -61,9 +61,14 @@ fn near_image(way: i32, period: u32) -> i32 {
     return select(select(way, way - p, 2 * way > p), way + p, 2 * way < -p);
 }
 
-// Length of a way in whole quanta, not less; what is absurd is cut.
-fn way_length(way: Place) -> u32 {
-    return u32(min(ceil(length(Vector(way))), 1e8)) + 1u;
+// Square of a way's length, as bits, which have the order of lengths.
+fn way_bits(way: Place) -> u32 {
+    return bitcast<u32>(dot(Vector(way), Vector(way)));
+}
+
+// Within which solids touch, quanta: one spacing.
+fn touching_range() -> f32 {
+    return parameters.particle_spacing * constants.inverse_quantum;
 }
 
 // weir_coordinate_of() of a place that is `away` metres from the origin.

@@ -5,6 +5,13 @@ const NO_LIST = 0xffffffffu;
 // With MARKS_MIXED, added to the number of entries where not all of them may be of fluid: in lists of WARP particles side by side
 // if it is so in one of them, so that their threads do the same.
 const MIXED_LIST = 0x80000000u;
+
+// Added to the number of entries of a free body's particle that another solid may touch while the list is in use.
+const MEETS_SOLID = 0x40000000u;
+
+// How many entries, of that word.
+const LIST_COUNT = MEETS_SOLID - 1u;
+
 const WARP = 32u;
 const PART_STRIDE = 128u;
 

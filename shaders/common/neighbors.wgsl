@@ -1,7 +1,7 @@
 // Sums over the neighbours of a particle, for passes that bring `struct Own`, `struct Sums`, no_sums(), added(), add_pair(),
 // and take_itself(), which takes back what the particle added to its own sums as the filling of a list. Furthermore share_of(),
 // the sums of one lane by sum_pairs(); reading_start(), where in `coordinate` and `motion` the particles are;
-// way_since_sort(), the largest way of one from where it was sorted; and `cell_start`. Pass forces has all this twice.
+// way_since_lists(), the largest way of one since lists were made; and `cell_start`. Pass forces has all this twice.
 //
 // Particles keep their slots for some steps after they were sorted. A list holds, in 16 bits each, all that was within
 // the support and twice `allowance` then; so it misses nobody while no particle has moved farther than that. When one has, or
@@ -17,6 +17,20 @@
 // By the workgroup's threads.
 var<workgroup> shares: array<Sums, select(1u, WORKGROUP_SIZE, LANES > 1u)>;
 
+// The head of a list and a lane's first chunk of it.
+struct Opening {
+    header: vec4u,
+    chunk: vec2u,
+}
+
+fn opening_of(i: u32, lane: u32) -> Opening {
+    if !LISTS {
+        return Opening();
+    }
+    let at = 2u * part_index(i, 0u);
+    return Opening(vec4u(list_chunk(at), list_chunk(at + 1u)), list_chunk(chunk_index(i, lane)));
+}
+
 // What the lanes of item i leave for all_sums(). To be called by all threads of a workgroup.
 fn leave_shares(works: bool, i: u32, lane: u32, local: u32) {
     if LANES > 1u {
@@ -28,9 +42,9 @@ fn leave_shares(works: bool, i: u32, lane: u32, local: u32) {
 }
 
 // Of the particle in slot i, for its first thread, which is the workgroup's thread `local`.
-fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
+fn all_sums(i: u32, place: Place, own: Own, local: u32, opening: Opening) -> Sums {
     if LANES == 1u {
-        return sum_pairs(i, place, own, 0u);
+        return sum_pairs(i, place, own, 0u, opening);
     }
     var sums = shares[local];
     for (var lane = 1u; lane < LANES; lane++) {
@@ -40,20 +54,19 @@ fn all_sums(i: u32, place: Place, own: Own, local: u32) -> Sums {
 }
 
 // A lane's share: every LANES-th chunk of the list, or 32 candidates of a run of cells.
-fn sum_pairs(i: u32, place: Place, own: Own, lane: u32) -> Sums {
+fn sum_pairs(i: u32, place: Place, own: Own, lane: u32, opening: Opening) -> Sums {
     let start = reading_start();
-    let moved = way_since_sort();
+    let moved = way_since_lists();
     if LISTS && moved <= control.allowance {
-        let at = 2u * part_index(i, 0u);
-        let header = vec4u(list_chunk(at), list_chunk(at + 1u));
+        let header = opening.header;
         if header.x != NO_LIST {
             if MARKS_MIXED && header.x < MIXED_LIST {
-                return sum_listed(i, place, own, lane, start, header, true);
+                return sum_listed(i, place, own, lane, start, opening, true);
             }
-            return sum_listed(i, place, own, lane, start, header, false);
+            return sum_listed(i, place, own, lane, start, opening, false);
         }
     }
-    return sum_walk(place, own, lane, start, moved);
+    return sum_walk(place, own, lane, start, moved + (control.listed_at - control.sorted_at));
 }
 
 // Lists are read four entries at a time.
@@ -70,13 +83,14 @@ fn chunk_stride(chunk: u32) -> u32 {
 }
 
 // Each chunk is loaded while the one before it is summed. `fluid`: all that it lists is.
-fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, header: vec4u, fluid: bool) -> Sums {
+fn sum_listed(i: u32, place: Place, own: Own, lane: u32, start: u32, opening: Opening, fluid: bool) -> Sums {
     var sums = no_sums();
-    let count = select(header.x, header.x & (MIXED_LIST - 1u), MARKS_MIXED);
+    let header = opening.header;
+    let count = header.x & LIST_COUNT;
     let chunks = (count + 3u) / 4u;
     let bases = list_bases(start, i, header);
     var at = chunk_index(i, lane);
-    var next = list_chunk(at);
+    var next = opening.chunk;
     for (var c = lane; c < chunks; c += LANES) {
         let words = next;
         at += chunk_stride(c);

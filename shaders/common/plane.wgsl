@@ -40,11 +40,6 @@ fn periodic_axes() -> Axes {
     return Axes(PERIODIC_X, PERIODIC_Y);
 }
 
-// Bits 0, 2 and 4.
-fn axes_of(sides: u32) -> Axes {
-    return (vec2u(sides) & vec2u(1u, 4u)) != vec2u(0u);
-}
-
 fn nearest_z(way: Place) -> Place {
     return way;
 }

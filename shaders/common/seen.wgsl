@@ -34,13 +34,13 @@ fn add_pair(sums: ptr<function, Sums>, own: Own, other: Particle, offset: Vector
 }
 
 fn share_of(i: u32, lane: u32) -> Sums {
-    return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane);
+    return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane, opening_of(i, lane));
 }
 
 // Motion as fluid sees it, of the particle in slot i, by its first thread, the workgroup's thread `local`. `velocity` and
 // `acceleration` of its solid there.
 fn fluid_motion(i: u32, own: vec4i, velocity: vec3f, acceleration: vec3f, local: u32) -> vec4f {
-    let sums = all_sums(i, place_of(own), Own(0u), local);
+    let sums = all_sums(i, place_of(own), Own(0u), local, opening_of(i, 0u));
     var seen = velocity;
     var pressure = 0.0;
     if sums.weight > 1e-12 {

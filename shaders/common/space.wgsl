@@ -42,11 +42,6 @@ fn periodic_axes() -> Axes {
     return Axes(PERIODIC_X, PERIODIC_Y, PERIODIC_Z);
 }
 
-// Bits 0, 2 and 4.
-fn axes_of(sides: u32) -> Axes {
-    return (vec3u(sides) & vec3u(1u, 4u, 16u)) != vec3u(0u);
-}
-
 fn nearest_z(way: Place) -> Place {
     return vec3i(way.xy, near_image(way.z, constants.period_z));
 }

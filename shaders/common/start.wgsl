@@ -1,21 +1,21 @@
 // The clock moves on: for passes with a `control` that all particles write.
 fn maxima_of_step(n: u32) -> Maxima {
     var found = Maxima();
-    found.speed_bits = atomicLoad(&control.maxima[n].speed_bits);
-    found.acceleration_bits = atomicLoad(&control.maxima[n].acceleration_bits);
-    found.error_bits = atomicLoad(&control.maxima[n].error_bits);
-    found.moved_finish = atomicLoad(&control.maxima[n].moved_finish);
-    found.moved_drift = atomicLoad(&control.maxima[n].moved_drift);
+    found.speed2_bits = atomicLoad(&control.maxima[n].speed2_bits);
+    found.acceleration2_bits = atomicLoad(&control.maxima[n].acceleration2_bits);
+    found.excess_bits = atomicLoad(&control.maxima[n].excess_bits);
+    found.finish2_bits = atomicLoad(&control.maxima[n].finish2_bits);
+    found.drift2_bits = atomicLoad(&control.maxima[n].drift2_bits);
     found.bad = atomicLoad(&control.maxima[n].bad);
     return found;
 }
 
 fn clear_maxima_of_step(n: u32) {
-    atomicStore(&control.maxima[n].speed_bits, 0u);
-    atomicStore(&control.maxima[n].acceleration_bits, 0u);
-    atomicStore(&control.maxima[n].error_bits, 0u);
-    atomicStore(&control.maxima[n].moved_finish, 0u);
-    atomicStore(&control.maxima[n].moved_drift, 0u);
+    atomicStore(&control.maxima[n].speed2_bits, 0u);
+    atomicStore(&control.maxima[n].acceleration2_bits, 0u);
+    atomicStore(&control.maxima[n].excess_bits, 0u);
+    atomicStore(&control.maxima[n].finish2_bits, 0u);
+    atomicStore(&control.maxima[n].drift2_bits, 0u);
 }
 
 // The step that is prepared in clocks[at], after that which noted the maxima of the turn before.
@@ -33,5 +33,5 @@ fn tell_clock(now: Clock) {
     }
     control.clock = now;
     clear_maxima_of_step(next_turn(now.noting));
-    leave_sort_groups(now.sorting);
+    leave_sort_groups(now);
 }

@@ -35,23 +35,40 @@ struct Clock {
     // Order and lists (common/neighbors.wgsl). Ways are sums of the steps' largest, in quanta, and may wrap around.
     side: u32,              // of the working copies, that sorts write and the next step reads;
     last_side: u32,         // that the last step read, or the one under way: it writes the other one
-    sorting: u32,           // 1: the particles are sorted before the next step
-    stale: u32,             // 1: and so they are at the next chance
+    sorting: u32,           // 1: the particles are sorted before the next step;
+    listing: u32,           // 1: lists are made anew before it, and so they are after a sort
+    stale: u32,             // 1: and so they are at the next chance;
+    worn: u32,              // 1: and then the particles are sorted too, if it is one for that
     travelled: u32,         // up to that step's kick
     next_allowance: u32,
     noting: u32,            // which of the maxima it notes
     left: f32,              // s, from its end to `until`
+    // Of the step under way, for all of its particles.
+    flow_speed: f32,        // m/s, by which shifting goes
+    due_excess: f32,        // kg/m^3, that flow and weight may cause
+    diffusion: f32,         // s, delta h / c0 as far as it is stable
+    unused: u32,
 }
 
 // What the threads of a step note together.
 struct Maxima {
-    speed_bits: u32,        // largest speed and acceleration, as bits: those of floats >= 0 have their order
-    acceleration_bits: u32,
-    error_bits: u32,        // largest density error
-    moved_finish: u32,      // quanta, since the kick, in the second half of the step's move,
-    moved_drift: u32,       // and in the first half of the next one's
+    speed2_bits: u32,       // largest squares of speed and acceleration, as bits: those of floats >= 0 have their order
+    acceleration2_bits: u32,
+    excess_bits: u32,       // largest amount of excess density
+    finish2_bits: u32,      // squares of the longest ways since the kick, quanta: in the second half of the step's move,
+    drift2_bits: u32,       // and in the first half of the next one's. Each by itself, for between them a call may end
     bad: u32,               // 1: it went wrong
     unused: array<u32, 26>, // a line of the caches for each
+}
+
+// From its square's bits to a way in whole quanta, not less; what is absurd is cut.
+fn way_length(bits: u32) -> u32 {
+    return select(0u, u32(min(ceil(sqrt(bitcast<f32>(bits))), 1e8)) + 1u, bits > 0u);
+}
+
+// No particle has come farther since the kick.
+fn way_of(last: Maxima) -> u32 {
+    return way_length(last.finish2_bits) + way_length(last.drift2_bits);
 }
 
 // WeirWcsphControl. No pass reads what another thread of it writes: steps take turns with three clocks and maxima. Pass forces finds its
@@ -69,12 +86,13 @@ struct Control {
     bad_id: u32,            // of the particle in bad_slot
     bad_place: vec4i,       // its coordinate
     next_due: vec2u,        // time at which emitters may have a layer next
-    sorted_at: u32,         // way when the particles were sorted
-    allowance: u32,         // way after which lists made then may miss neighbours
+    sorted_at: u32,         // way when the particles were sorted;
+    listed_at: u32,         // and when lists were made,
+    allowance: u32,         // which may miss neighbours after so much more of it
     clock: Clock,
-    unused: array<u32, 28>, // what follows begins at 256 bytes
+    unused: array<u32, 20>, // what follows begins at 256 bytes
     clocks: array<Clock, 3>,
-    unused_too: array<u32, 4>, // at 512
+    unused_too: array<u32, 18>, // at 640
     maxima: array<Maxima, 3>,
     bad_particles: u32,
     bad_step: u32,          // 0xffffffff: none
@@ -85,11 +103,11 @@ struct Control {
 
 // The same for passes in which all particles write at once.
 struct SharedMaxima {
-    speed_bits: atomic<u32>,
-    acceleration_bits: atomic<u32>,
-    error_bits: atomic<u32>,
-    moved_finish: atomic<u32>,
-    moved_drift: atomic<u32>,
+    speed2_bits: atomic<u32>,
+    acceleration2_bits: atomic<u32>,
+    excess_bits: atomic<u32>,
+    finish2_bits: atomic<u32>,
+    drift2_bits: atomic<u32>,
     bad: atomic<u32>,
     unused: array<u32, 26>,
 }
@@ -104,11 +122,12 @@ struct SharedControl {
     bad_place: vec4i,
     next_due: vec2u,
     sorted_at: u32,
+    listed_at: u32,
     allowance: u32,
     clock: Clock,
-    unused: array<u32, 28>,
+    unused: array<u32, 20>,
     clocks: array<Clock, 3>,
-    unused_too: array<u32, 4>,
+    unused_too: array<u32, 18>,
     maxima: array<SharedMaxima, 3>,
     bad_particles: atomic<u32>,
     bad_step: atomic<u32>,

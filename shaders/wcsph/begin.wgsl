@@ -4,7 +4,7 @@
 // out: control, step_end (sizes of dispatches), solid_state
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
-var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
+var<workgroup> drift2_most: atomic<u32>; // wgpu-native does not zero it
 
 // The first step's turn is 0.
 fn start_batch() {
@@ -17,13 +17,13 @@ fn start_batch() {
     clock.noting = 2u;
     control.clock = clock;
     control.clocks[0] = prepared(clock);
-    leave_sort_groups(clock.sorting);
+    leave_sort_groups(clock);
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn begin(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        atomicStore(&way_most, 0u);
+        atomicStore(&drift2_most, 0u);
         start_batch();
     }
     storageBarrier();
@@ -35,13 +35,13 @@ fn begin(@builtin(local_invocation_index) local: u32) {
             let after = drifted_solid(n, before, half, add_ticks(control.clock.time, ticks_of(half)));
             solid_state[NOW + n] = after;
             if half > 0.0 {
-                atomicMax(&way_most, solid_way(n, before, after));
+                atomicMax(&drift2_most, solid_way_bits(n, before, after));
             }
         }
         workgroupBarrier();
         if local == 0u {
             let last = &control.maxima[control.clock.noting];
-            (*last).moved_drift = max((*last).moved_drift, atomicLoad(&way_most));
+            (*last).drift2_bits = max((*last).drift2_bits, atomicLoad(&drift2_most));
         }
     }
 }

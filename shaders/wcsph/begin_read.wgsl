@@ -18,7 +18,7 @@ fn begin_read() {
     control.clocks[0].noting = next_turn(control.clock.noting);
     if control.restored == 1u {
         // Ways of the step that went wrong.
-        control.maxima[control.clock.noting].moved_finish = 0u;
-        control.maxima[control.clock.noting].moved_drift = 0u;
+        control.maxima[control.clock.noting].finish2_bits = 0u;
+        control.maxima[control.clock.noting].drift2_bits = 0u;
     }
 }

@@ -9,13 +9,13 @@
 @group(0) @binding(BINDING_solid_particle) var<storage, read> solid_particle: array<SolidParticle>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 
-var<workgroup> way_most: atomic<u32>; // wgpu-native does not zero it
+var<workgroup> drift2_most: atomic<u32>; // wgpu-native does not zero it
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
          @builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        atomicStore(&way_most, 0u);
+        atomicStore(&drift2_most, 0u);
     }
     workgroupBarrier();
     let i = thread_index(workgroup, workgroups, local);
@@ -23,8 +23,8 @@ fn drift(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
         drift_particle(i, select(side_start(control.clock.side), 0u, control.clock.sorting == 1u) + i);
     }
     workgroupBarrier();
-    if local == 0u && atomicLoad(&way_most) > 0u {
-        atomicMax(&control.maxima[control.clock.noting].moved_drift, atomicLoad(&way_most));
+    if local == 0u && atomicLoad(&drift2_most) > 0u {
+        atomicMax(&control.maxima[control.clock.noting].drift2_bits, atomicLoad(&drift2_most));
     }
 }
 
@@ -40,7 +40,7 @@ fn drift_particle(i: u32, target_slot: u32) {
         }
         let to = drifted(old, vector_of(own), half);
         at = to.coordinate;
-        atomicMax(&way_most, way_length(place_of(at) - place_of(old)));
+        atomicMax(&drift2_most, way_bits(place_of(at) - place_of(old)));
         if to.fate == FATE_DRAINED {
             atomicAdd(&control.drained, 1u);
         } else if to.fate == FATE_LOST {

@@ -10,6 +10,7 @@ fn first_step() {
     limit_step(&clock, control.maxima[clock.noting]);
     clock.running = 0u;
     clock.sorting = 0u;
+    clock.listing = 0u;
     control.clock = clock;
     control.starting = 0u;
 }

@@ -105,13 +105,13 @@ fn added(a: Sums, b: Sums) -> Sums {
                 min(a.solid_square, b.solid_square));
 }
 
-var<workgroup> moved: u32; // way since the sort
+var<workgroup> moved: u32; // way since lists were made
 
-fn way_since_sort() -> u32 {
+fn way_since_lists() -> u32 {
     if OWN_CLOCK {
         return moved;
     }
-    return control.clock.travelled - control.sorted_at;
+    return control.clock.travelled - control.listed_at;
 }
 
 // Where the equation of state is linear, the excess density is summed for the pressure, until with_pressure(): an instruction
@@ -244,13 +244,12 @@ fn slope_at_end(own: Own, q: f32, r_squared: f32, inverse_r: f32, growth: f32) -
 }
 
 // How far the barrier may act, quanta, or 0: few particles come so close to a solid, or approach it so fast, that they need that
-// search, for which their warp waits. `speed`: none of the fluid that may be near is faster.
-fn barrier_reach(sums: Sums, speed: f32) -> f32 {
+// search, for which their warp waits. `speed2`: square of a speed; none of the fluid that may be near is faster.
+fn barrier_reach(sums: Sums, speed2: f32) -> f32 {
     let solid_speed = select(0.0, control.solid_speed, MOVING_SOLIDS) + FASTEST_SURFACE;
-    let near = sqrt(sums.solid_square);
-    let brakes = speed + solid_speed > BRAKE_LIMIT * constants.sound_speed;
-    let reach = quanta_of_spacings(select(BARRIER_RANGE, BRAKE_RANGE, brakes));
-    return select(0.0, reach, HAS_SOLIDS && near < reach);
+    let calm = max(BRAKE_LIMIT * constants.sound_speed - solid_speed, 0.0);
+    let reach = quanta_of_spacings(select(BARRIER_RANGE, BRAKE_RANGE, speed2 > calm * calm));
+    return select(0.0, reach, HAS_SOLIDS && sums.solid_square < reach * reach);
 }
 
 // By pressure. `own_pressure` as it enters the sum.
@@ -281,11 +280,14 @@ const TOOL_PULL = 2u;
 const TOOL_STIR = 3u;
 
 fn body_forces(at: Vector, velocity: Vector) -> Vector {
-    var sum = vector_of(parameters.gravity)
+    let sum = vector_of(parameters.gravity)
         - parameters.central_force * (at - vector_of(constants.center));
+    if constants.tool_kind == TOOL_NONE {
+        return sum;
+    }
     let offset = at - vector_of(constants.tool_position);
     let distance = length(offset);
-    if constants.tool_kind == TOOL_NONE || distance >= constants.tool_radius {
+    if distance >= constants.tool_radius {
         return sum;
     }
     let strength = constants.tool_strength * (1.0 - distance / constants.tool_radius);
@@ -299,41 +301,31 @@ fn body_forces(at: Vector, velocity: Vector) -> Vector {
 // Particle shifting (Sun et al. 2017) of a particle inside the fluid, and in w what it does to the density (2019):
 // drho/dt / rho.
 fn shift_of(sums: Sums) -> vec4f {
-    // One particle that flies faster than the method is valid for must not shake all the others.
-    let flow_speed = min(min(now().max_speed, 0.1 * constants.sound_speed), constants.shifting_limit / now().dt);
+    let flow_speed = now().flow_speed;
     let most = 0.25 * flow_speed;
     let gradient = constants.particle_mass * constants.gradient_factor * constants.quantum;
     let factor = -parameters.shifting * 4.0 * constants.smoothing_length * flow_speed
         * gradient;
-    let u = factor * (sums.gradient + 0.2 * power4(1.0 / constants.spacing_value) * sums.clustering);
+    let u = factor * (sums.gradient + constants.clustering_factor * sums.clustering);
     let speed = length(u);
     let shift = u * select(1.0, most / max(speed, 1e-30), speed > most);
     return vec4f(wide(shift), 2.0 * gradient * dot(shift, sums.gradient));
 }
 
-// Excess density for the weight of fluid one support deep and the pressure rho0 v^2 / 2 at which the fastest fluid stagnates.
-fn due_excess() -> f32 {
-    let c = constants.sound_speed;
-    let mach = min(now().max_speed / c, 0.1);
-    let weight = parameters.support_radius * length(parameters.gravity.xyz) / (c * c);
-    return parameters.rest_density * (weight + 0.5 * mach * mach);
-}
-
 // What shifting (`rate`) and the volume that particles fill do to the density, and the return of spray to its rest density.
 fn shift_rate_of(sums: Sums, excess: f32, surface: f32, rate: f32) -> f32 {
-    let c = constants.sound_speed;
-    let h = constants.smoothing_length;
-    let pace = c / h / (parameters.rest_density + excess);
+    let acoustic = constants.acoustic_rate;
+    let pace = acoustic / (parameters.rest_density + excess);
     if surface < SPRAY_LIMIT * f32(DIMENSION) && excess < 0.0 {
         return -excess * pace;
     }
-    let due = due_excess();
+    let due = now().due_excess;
     let undue = excess - clamp(excess, -due, due);
-    let ragged = select(0.0, undue * pace / RAGGED_TIME, surface < RAGGED_LIMIT * f32(DIMENSION));
+    let ragged = select(0.0, undue * pace * (1.0 / RAGGED_TIME), surface < RAGGED_LIMIT * f32(DIMENSION));
     let filling = constants.particle_mass * constants.kernel_factor * sums.filling;
     let is_full = surface * constants.lattice_filling >= FULL_SUPPORT * f32(DIMENSION) * filling;
-    let crowd = max(filling - CROWDED_LIMIT * constants.lattice_filling, 0.0) * c / (CROWDED_TIME * h);
-    return rate - ragged + crowd + select(0.0, (filling - constants.lattice_filling) * c / (VOLUME_TIME * h), is_full);
+    let crowd = max(filling - CROWDED_LIMIT * constants.lattice_filling, 0.0) * acoustic * (1.0 / CROWDED_TIME);
+    return rate - ragged + crowd + select(0.0, (filling - constants.lattice_filling) * acoustic * (1.0 / VOLUME_TIME), is_full);
 }
 
 // drho/dt for the velocities after the kick, without a second sweep: what the pressure's acceleration `push` is about to add to
@@ -343,8 +335,7 @@ fn rate_of(sums: Sums, excess: f32, push: Vector, shift_rate: f32) -> f32 {
     let dt = now().dt;
     let rho = parameters.rest_density + excess;
     let compress = constants.particle_mass * constants.gradient_factor * constants.quantum;
-    let diffusion = min(parameters.density_diffusion * constants.smoothing_length / constants.sound_speed,
-                        constants.diffusion_limit / dt - dt);
+    let diffusion = now().diffusion;
     // p_j - p_i less what the gradient of the pressure makes of their distance, which one side alone would keep
     let slant = dot(sums.moment, diffusion * parameters.rest_density * vector_of(parameters.gravity) - dt * rho * push);
     let spread = (dt + diffusion) * sums.laplacian + constants.quantum * slant;
@@ -361,12 +352,13 @@ fn pressure_of_solid(excess: f32) -> f32 {
 }
 
 // And in w the share of its support that fluid fills.
-fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) -> vec4f {
-    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
+fn acceleration_of_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32, opening: Opening) -> vec4f {
+    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local, opening));
     var acceleration = pressure_acceleration(sums, own_motion.w, pressure_of_solid(own_motion.w))
         + viscous_acceleration(sums, own_motion.w, false);
     // A read may come before the maximum is known, and what an emitter has just made is not in it.
-    let reach = barrier_reach(sums, select(now().max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u));
+    let speed = select(now().max_speed, constants.sound_speed, FORCES_READ || EMITTER_COUNT > 0u);
+    let reach = barrier_reach(sums, speed * speed);
     if reach > 0.0 {
         acceleration += barrier_of(own, own_motion, reach);
     }
@@ -377,41 +369,41 @@ fn wants_force(group: u32) -> bool {
     return FORCES_READ || (FREE_SOLIDS && solid_table[group - GROUP_SOLID].kind == SOLID_FREE);
 }
 
-// The workgroup's largest values, as bits: one atomic operation per workgroup on the device's memory, not one per
+// The workgroup's largest squares, as bits: one atomic operation per workgroup on the device's memory, not one per
 // particle on the same place. What is not finite is a matter for health.
-var<workgroup> speed_most: atomic<u32>; // wgpu-native does not zero them
-var<workgroup> acceleration_most: atomic<u32>;
+var<workgroup> speed2_most: atomic<u32>; // wgpu-native does not zero them
+var<workgroup> acceleration2_most: atomic<u32>;
 
 fn take_speed(square: f32) {
-    let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&speed_most) && is_finite(square) {
-        atomicMax(&speed_most, bits);
+    let bits = bitcast<u32>(square);
+    if bits > atomicLoad(&speed2_most) && is_finite(square) {
+        atomicMax(&speed2_most, bits);
     }
 }
 
 fn take_acceleration(square: f32) {
-    let bits = bitcast<u32>(sqrt(square));
-    if bits > atomicLoad(&acceleration_most) && is_finite(square) {
-        atomicMax(&acceleration_most, bits);
+    let bits = bitcast<u32>(square);
+    if bits > atomicLoad(&acceleration2_most) && is_finite(square) {
+        atomicMax(&acceleration2_most, bits);
     }
 }
 
 fn clear_maxima() {
-    atomicStore(&speed_most, 0u);
-    atomicStore(&acceleration_most, 0u);
+    atomicStore(&speed2_most, 0u);
+    atomicStore(&acceleration2_most, 0u);
     clear_finish();
 }
 
 fn publish_maxima() {
-    atomicMax(&control.maxima[now().noting].speed_bits, atomicLoad(&speed_most));
-    atomicMax(&control.maxima[now().noting].acceleration_bits, atomicLoad(&acceleration_most));
+    atomicMax(&control.maxima[now().noting].speed2_bits, atomicLoad(&speed2_most));
+    atomicMax(&control.maxima[now().noting].acceleration2_bits, atomicLoad(&acceleration2_most));
     if FORCES_READ {
-        atomicMax(&control.maxima[now().noting].error_bits, atomicLoad(&error_most));
+        atomicMax(&control.maxima[now().noting].excess_bits, atomicLoad(&excess_most));
     }
 }
 
-fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
-    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local));
+fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32, opening: Opening) {
+    let sums = with_pressure(all_sums(i, place_of(own), own_of(own, own_motion), local, opening));
     let full = -constants.particle_mass * constants.gradient_factor * constants.quantum * constants.quantum;
     let surface = full * sums.surface;
     let inside = surface >= 0.95 * f32(DIMENSION);
@@ -421,7 +413,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     let push = pressure_acceleration(sums, own_motion.w, acts);
     var acceleration = push + viscous_acceleration(sums, own_motion.w, inside)
         + body_forces(position_of(place_of(own)), velocity);
-    let reach = barrier_reach(sums, length(velocity));
+    let reach = barrier_reach(sums, dot(velocity, velocity));
     if reach > 0.0 {
         acceleration += barrier_of(own, own_motion, reach);
     }
@@ -431,7 +423,7 @@ fn forces_on_fluid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
         if control.starting == 1u {
             take_speed(dot(velocity, velocity));
             take_acceleration(dot(acceleration, acceleration));
-            take_density(own_motion.w);
+            take_excess(own_motion.w);
         }
         return;
     }
@@ -458,7 +450,7 @@ fn start_clock(tells: bool) {
         clock = control.clock;
         let last = maxima_of_step(clock.noting);
         clock.last_side = clock.side;
-        clock.travelled += last.moved_finish + last.moved_drift;
+        clock.travelled += way_of(last);
     } else if ONE_PASS {
         clock = begun(turn, turn);
         if tells {
@@ -469,7 +461,7 @@ fn start_clock(tells: bool) {
         control.clocks[0] = prepared(control.clock);
     }
     if OWN_CLOCK {
-        moved = clock.travelled - control.sorted_at;
+        moved = clock.travelled - control.listed_at;
     }
 }
 
@@ -481,15 +473,16 @@ fn slot_of(item: u32) -> u32 {
 }
 
 // A lone thread's particle is on its way while the clock moves on.
-const EARLY = ONE_PASS && LANES == 1u;
+const EARLY = LANES == 1u && !FORCES_READ;
 
 struct Taken {
     coordinate: vec4i,
     motion: vec4f,
+    opening: Opening,
 }
 
 fn taken(i: u32) -> Taken {
-    return Taken(coordinate_at(reading_start() + i), motion_at(reading_start() + i));
+    return Taken(coordinate_at(reading_start() + i), motion_at(reading_start() + i), opening_of(i, 0u));
 }
 
 // Solids see the fluid here, for the next step: friction finds them with the velocity of one step ago. Their threads are those of
@@ -526,8 +519,10 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
     turn = workgroups.x % 3u;
     let thread = thread_index(workgroup, workgroups, local);
     var own = Taken();
+    var i = 0u;
     if EARLY {
-        own = taken(min(thread, constants.particle_count - 1u));
+        i = slot_of(min(thread, constants.particle_count - 1u));
+        own = taken(i);
     }
     if local == 0u {
         clear_maxima();
@@ -543,8 +538,7 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
         runs = clock.running == 1u && is_well(atomicLoad(&control.bad_step), control.restored);
     }
     let works = thread / LANES < constants.particle_count && runs;
-    var i = 0u;
-    if works {
+    if works && !EARLY {
         i = slot_of(thread / LANES);
     }
     leave_shares(works, i, thread % LANES, local);
@@ -552,10 +546,10 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
         if !EARLY {
             own = taken(i);
         }
-        forces_on(i, own.coordinate, own.motion, local);
+        forces_on(i, own, local);
     }
     workgroupBarrier();
-    if local == 0u && atomicLoad(&speed_most) + atomicLoad(&acceleration_most) > 0u {
+    if local == 0u && atomicLoad(&speed2_most) + atomicLoad(&acceleration2_most) > 0u {
         publish_maxima();
     }
     if !FORCES_READ && local == 0u {
@@ -564,20 +558,23 @@ fn forces(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) work
 }
 
 fn share_of(i: u32, lane: u32) -> Sums {
+    let opening = opening_of(i, lane);
     let own = coordinate_at(reading_start() + i);
     let group = u32(own.w);
     if group == GROUP_EMPTY || (HAS_SOLIDS && is_solid(group) && !wants_force(group)) {
         return no_sums();
     }
-    return sum_pairs(i, place_of(own), own_of(own, motion_at(reading_start() + i)), lane);
+    return sum_pairs(i, place_of(own), own_of(own, motion_at(reading_start() + i)), lane, opening);
 }
 
 // By the particle's first thread, the workgroup's thread `local`.
-fn forces_on(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
+fn forces_on(i: u32, it: Taken, local: u32) {
+    let own = it.coordinate;
+    let own_motion = it.motion;
     if is_fluid(u32(own.w)) {
-        forces_on_fluid(i, own, own_motion, local);
+        forces_on_fluid(i, own, own_motion, local, it.opening);
     } else if HAS_SOLIDS && is_solid(u32(own.w)) {
-        forces_on_solid(i, own, own_motion, local);
+        forces_on_solid(i, own, own_motion, local, it.opening);
     } else if FORCES_READ {
         set_kicked(i, vec4f(0.0));
     } else {
@@ -585,7 +582,7 @@ fn forces_on(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     }
 }
 
-fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
+fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32, opening: Opening) {
     if !MOVING_SOLIDS && !FORCES_READ {
         if !SEES_FLUID {
             leave_fixed(i, own, own_motion);
@@ -595,11 +592,15 @@ fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32) {
     if !wants_force(u32(own.w)) {
         return;
     }
-    let acceleration = acceleration_of_solid(i, own, own_motion, local);
+    let acceleration = acceleration_of_solid(i, own, own_motion, local, opening);
     if FORCES_READ {
         set_kicked(i, vec4f(acceleration.xyz, linear_pressure(own_motion.w)));
         return;
     }
-    set_kicked(i, vec4f(wide(contact_force(own)), 0.0));
+    var contact = Vector();
+    if may_touch(opening.header.x) {
+        contact = contact_force(own);
+    }
+    set_kicked(i, vec4f(wide(contact), 0.0));
     set_kicked(constants.particle_count + i, constants.particle_mass * acceleration);
 }

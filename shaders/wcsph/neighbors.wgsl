@@ -1,9 +1,10 @@
-// After a sort: each particle's list (common/neighbors.wgsl), the slots of solid particles, and the state's ids; and the slots
-// with those of fluid first (common/lists.wgsl).
-// Solid particles list fluid alone.
+// Each particle's list (common/neighbors.wgsl). Solid particles list fluid alone.
+// After a sort also the slots of solid particles, the state's ids, and the slots with those of fluid first (common/lists.wgsl).
 //
 // in:  coordinate, sorted_id, cell_start, control
-// out: neighbor_list, solid_particle (slots), id, the end of cell_start; cell_link's heads are emptied for the next count
+// out: neighbor_list, control: how long lists last; solid_particle (slots), id, the end of cell_start; cell_link's heads are emptied
+//      for the next count
+@group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 @group(0) @binding(BINDING_sorted_id) var<storage, read> sorted_id: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read_write> cell_start: array<u32>;
 @group(0) @binding(BINDING_solid_particle) var<storage, read_write> solid_particle: array<SolidParticle>;
@@ -26,6 +27,28 @@ fn with_layer(header: vec4u, layer: u32, first: u32) -> vec4u {
                   vec4u(header.x, first, header.zw), layer == 0u);
 }
 
+// The way up to the step that comes, and how far particles have come from their cells.
+fn way_now() -> u32 {
+    return control.clock.travelled + way_of(control.maxima[control.clock.noting]);
+}
+
+fn strayed() -> u32 {
+    return way_now() - control.sorted_at;
+}
+
+// What is to be done before the step that comes. From the workgroup's memory, so that browsers know all of its threads to agree.
+const LISTING = 1u;
+const SORTED = 2u;
+var<workgroup> due: u32;
+
+fn due_now(local: u32) -> u32 {
+    if local == 0u {
+        let runs = control.clock.running == 1u && is_well(control.bad_step, control.restored);
+        due = select(0u, control.clock.listing * LISTING + control.clock.sorting * SORTED, runs);
+    }
+    return workgroupUniformLoad(&due);
+}
+
 // A header with the lowest slot of each layer.
 fn first_candidates(place: Place, reach: i32) -> vec4u {
     var header = vec4u(0u, vec3u(0xffffffffu));
@@ -39,9 +62,25 @@ fn first_candidates(place: Place, reach: i32) -> vec4u {
     return header;
 }
 
+fn is_free(group: u32) -> bool {
+    return FREE_SOLIDS && is_solid(group) && solid_table[group - GROUP_SOLID].kind == SOLID_FREE;
+}
+
+// Whether a solid other than `group` has a particle within sqrt(limit), among the next 32 candidates.
+fn meets_solid(place: Place, first: u32, left: u32, limit: f32, group: u32) -> bool {
+    for (var near = near_among(place, first, left, limit, 0u).bits; near != 0u; near &= near - 1u) {
+        let other = u32(coordinate_at(first + firstTrailingBit(near)).w);
+        if is_solid(other) && other != group {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Leaves the list but for its header, which it returns. `groups` takes the bits of all candidates' groups.
 fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4u {
-    let reach = (1u << constants.coordinate_bits) + 2u * control.allowance + 8u;
+    let allowance = control.clock.next_allowance;
+    let reach = (1u << constants.coordinate_bits) + 2u * allowance + 8u;
     let limit = f32(reach) * f32(reach);
     // Of groups less 1, those below are solids', which solids do not see.
     let unseen = select(0u, GROUP_INLET - GROUP_SOLID, HAS_SOLIDS && is_solid(u32(own.w)));
@@ -49,11 +88,13 @@ fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4
     var count = 0u;
     var header = vec4u(0u);
     var fits = true;
+    let touching = touching_range() + 2.0 * f32(allowance) + 8.0;
+    var meets = false;
     if WRAPS {
-        header = first_candidates(place_of(own), i32(reach));
+        header = first_candidates(place_of(own), i32(reach + strayed()));
     }
     var layer = 0xffffffffu;
-    var walk = walk_around(place_of(own), i32(reach));
+    var walk = walk_around(place_of(own), i32(reach + strayed()));
     while next_run(&walk) {
         let begin = cell_start[walk.first_cell];
         let end = cell_start[walk.end_cell];
@@ -72,6 +113,9 @@ fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4
         for (var at = begin; at < end; at += 32u) {
             let found = near_among(walk.place, start + at, end - at, limit, unseen);
             *groups |= found.groups;
+            if is_free(u32(own.w)) && !meets {
+                meets = meets_solid(walk.place, start + at, end - at, touching * touching, u32(own.w));
+            }
             for (var near = found.bits; near != 0u; near &= near - 1u) {
                 part = pushed(part, at + firstTrailingBit(near) + shift);
                 count += 1u;
@@ -90,7 +134,8 @@ fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4
         }
         store_part(i, count / 8u, part);
     }
-    return vec4u(select(NO_LIST, listed_count, fits), header.yzw);
+    let count_word = listed_count | select(0u, MEETS_SOLID, meets);
+    return vec4u(select(NO_LIST, count_word, fits), header.yzw);
 }
 
 // A part with an entry more; its first one falls out.
@@ -107,22 +152,33 @@ fn store_part(i: u32, part: u32, entries: vec4u) {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u,
              @builtin(local_invocation_index) local: u32) {
-    if !is_sorting() {
+    let work = due_now(local);
+    if (work & LISTING) == 0u {
         return;
     }
+    let sorted = (work & SORTED) != 0u;
     let first_thread = workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE;
     let threads = workgroups.x * workgroups.y * WORKGROUP_SIZE;
-    for (var cell = first_thread + local; cell < constants.cell_count; cell += threads) {
-        atomicStore(&cell_link[cell], 0u);
+    if first_thread + local == 0u {
+        control.listed_at = way_now();
+        control.allowance = control.clock.next_allowance;
+    }
+    if sorted {
+        for (var cell = first_thread + local; cell < constants.cell_count; cell += threads) {
+            atomicStore(&cell_link[cell], 0u);
+        }
     }
     for (var first = first_thread; first < constants.particle_count; first += threads) {
-        if FLUID_FIRST {
+        if FLUID_FIRST && sorted {
             put_fluid_first(first + local, local);
         }
         var mixed = false;
         var header = vec4u(NO_LIST);
         if first + local < constants.particle_count {
-            header = note_particle(first + local, &mixed);
+            if sorted {
+                note_slot(first + local);
+            }
+            header = list_of(first + local, &mixed);
         }
         if LISTS && MARKS_MIXED && any_of_warp(mixed, local) {
             header.x |= MIXED_LIST;
@@ -161,13 +217,17 @@ fn put_fluid_first(i: u32, local: u32) {
     }
 }
 
-// Its list's header, and whether not all that it lists may be of fluid.
-fn note_particle(i: u32, mixed: ptr<function, bool>) -> vec4u {
+// Where the particle is now.
+fn note_slot(i: u32) {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
         solid_particle[sorted_id[i] - constants.first_solid].slot = i;
         cell_start[fluid_first_at(sorted_id[i])] = i;
     }
+}
+
+// Its list's header, and whether not all that it lists may be of fluid.
+fn list_of(i: u32, mixed: ptr<function, bool>) -> vec4u {
     let start = side_start(control.clock.side);
     let own = coordinate_at(start + i);
     if !LISTS || u32(own.w) == GROUP_EMPTY {

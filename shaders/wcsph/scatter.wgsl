@@ -2,7 +2,7 @@
 // the order is by id, so that sums have one order and two runs give equal bits.
 //
 // in:  coordinate, motion (the state), id, cell_link, cell_start, control
-// out: coordinate, motion (the working copy), sorted_id, control: how far particles may move from here
+// out: coordinate, motion (the working copy), sorted_id, control: where on their way they are
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_link) var<storage, read> cell_link: array<u32>;
 @group(0) @binding(BINDING_cell_start) var<storage, read> cell_start: array<u32>;
@@ -18,9 +18,7 @@ fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
     }
     let thread = thread_index(workgroup, workgroups, local);
     if thread == 0u {
-        let last = control.clock.noting;
-        control.sorted_at = control.clock.travelled + control.maxima[last].moved_finish + control.maxima[last].moved_drift;
-        control.allowance = control.clock.next_allowance;
+        control.sorted_at = control.clock.travelled + way_of(control.maxima[control.clock.noting]);
     }
     for (var i = thread; i < constants.particle_count; i += workgroups.x * workgroups.y * WORKGROUP_SIZE) {
         move_particle(i);

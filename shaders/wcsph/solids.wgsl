@@ -7,9 +7,9 @@
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
-var<workgroup> largest: atomic<u32>; // acceleration of free bodies, as bits
-var<workgroup> finish_most: atomic<u32>; // ways
-var<workgroup> drift_most: atomic<u32>;
+var<workgroup> acceleration_most: atomic<u32>; // squares, as bits: acceleration of free bodies,
+var<workgroup> finish2_most: atomic<u32>;      // and ways
+var<workgroup> drift2_most: atomic<u32>;
 
 fn kicked_solid(n: u32) -> SolidState {
     var state = solid_state[NOW + n];
@@ -31,9 +31,9 @@ fn kicked_solid(n: u32) -> SolidState {
     state.force = sums[0];
     state.torque = sums[1];
     state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.clock.dt);
-    let acceleration = length(state.acceleration.xyz);
-    if is_finite(acceleration) {
-        atomicMax(&largest, bitcast<u32>(acceleration));
+    let square = dot(state.acceleration.xyz, state.acceleration.xyz);
+    if is_finite(square) {
+        atomicMax(&acceleration_most, bitcast<u32>(square));
     }
     return state;
 }
@@ -41,9 +41,9 @@ fn kicked_solid(n: u32) -> SolidState {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn solids(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        atomicStore(&largest, 0u);
-        atomicStore(&finish_most, 0u);
-        atomicStore(&drift_most, 0u);
+        atomicStore(&acceleration_most, 0u);
+        atomicStore(&finish2_most, 0u);
+        atomicStore(&drift2_most, 0u);
     }
     workgroupBarrier();
     if control.clock.stepping == 1u {
@@ -56,17 +56,17 @@ fn solids(@builtin(local_invocation_index) local: u32) {
             solid_state[SAVED + n] = solid_state[NOW + n];
             solid_state[NEW + n] = kicked;
             solid_state[NOW + n] = drifted;
-            atomicMax(&finish_most, solid_way(n, kicked, finished));
+            atomicMax(&finish2_most, solid_way_bits(n, kicked, finished));
             if next_half > 0.0 {
-                atomicMax(&drift_most, solid_way(n, finished, drifted));
+                atomicMax(&drift2_most, solid_way_bits(n, finished, drifted));
             }
         }
     }
     workgroupBarrier();
     if local == 0u && control.clock.stepping == 1u {
         let step = &control.maxima[control.clock.noting];
-        (*step).acceleration_bits = max((*step).acceleration_bits, atomicLoad(&largest));
-        (*step).moved_finish = max((*step).moved_finish, atomicLoad(&finish_most));
-        (*step).moved_drift = max((*step).moved_drift, atomicLoad(&drift_most));
+        (*step).acceleration2_bits = max((*step).acceleration2_bits, atomicLoad(&acceleration_most));
+        (*step).finish2_bits = max((*step).finish2_bits, atomicLoad(&finish2_most));
+        (*step).drift2_bits = max((*step).drift2_bits, atomicLoad(&drift2_most));
     }
 }

@@ -12,10 +12,9 @@ fn reading_start() -> u32 {
     return side_start(control.clocks[0].last_side);
 }
 
-fn way_since_sort() -> u32 {
+fn way_since_lists() -> u32 {
     let last = last_turn(control.clocks[0].noting);
-    return control.clocks[0].travelled + atomicLoad(&control.maxima[last].moved_finish)
-        + atomicLoad(&control.maxima[last].moved_drift) - control.sorted_at;
+    return control.clocks[0].travelled + way_of(maxima_of_step(last)) - control.listed_at;
 }
 
 // Velocity and acceleration of solid `n` at a particle: sway (a + alpha x r) + w x (w x r).

@@ -161,6 +161,28 @@ int32_t weir_coordinate_of(const WeirConstants *constants, double place, uint32_
     return (int32_t)fmin(fmax(away, -2e9), 2e9); // NaN too
 }
 
+// Where the domain's sides act on fluid (docs/wcsph.md). Free fluid goes no deeper into a wall than the seal, just short of its
+// first layer; what gets past an open side, or a support radius past a wall, is lost.
+static void make_bounds(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters)
+{
+    static const double seal_depth = 0.45; // spacings
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+        int32_t *const seal[2] = {&constants->seal_low[axis], &constants->seal_high[axis]};
+        int32_t *const inside[2] = {&constants->inside_low[axis], &constants->inside_high[axis]};
+        const double ends[2] = {scene->domain_min[axis], scene->domain_max[axis]};
+        for (int side = 0; side < 2; ++side) {
+            *seal[side] = *inside[side] = side == 0 ? INT32_MIN : INT32_MAX;
+            if (axis >= scene->dimension || scene->periodic[axis]) continue;
+            double outward = side == 0 ? -1.0 : 1.0;
+            bool open = scene->open[axis][side];
+            double deepest = open ? 0.0 : parameters->support_radius;
+            *inside[side] = weir_coordinate_of(constants, ends[side] + outward * deepest, axis);
+            double sealed = ends[side] + outward * seal_depth * parameters->particle_spacing;
+            if (!open) *seal[side] = weir_coordinate_of(constants, sealed, axis);
+        }
+    }
+}
+
 // m^3; in 2D m^2.
 static double site_volume(double spacing, uint32_t dimension)
 {
@@ -293,7 +315,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->smoothing_length = (float)weir_smoothing_length(kernel, support);
     constants->kernel_factor = (float)weir_smoothing_factor(kernel, dimension, support);
     constants->gradient_factor = (float)weir_smoothing_gradient_factor(kernel, dimension, support);
-    constants->spacing_value = (float)weir_smoothing_shape(kernel, spacing / support);
+    constants->clustering_factor = (float)(0.2 / pow(weir_smoothing_shape(kernel, spacing / support), 4.0));
     LatticeSums resting = lattice_sums(parameters, dimension, resting_lattice(spacing, dimension));
     LatticeSums densest = lattice_sums(parameters, dimension, densest_lattice(spacing, dimension));
     constants->shifting_limit = (float)shifting_limit(parameters, dimension);
@@ -303,6 +325,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     constants->diffusion_limit =
         (float)(1.9 / 16.0 * support * support / (parameters->sound_speed * parameters->sound_speed));
     constants->sound_speed = parameters->sound_speed;
+    constants->acoustic_rate = parameters->sound_speed / constants->smoothing_length;
     constants->search_radius = (float)support;
     constants->speed_limit = 4.0f * parameters->sound_speed; // docs/wcsph.md
     // The larger of laminar and artificial viscosity acts (docs/wcsph.md).
@@ -319,6 +342,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
             if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);
     }
     make_coordinates(constants, scene, support);
+    make_bounds(constants, scene, parameters);
 }
 
 void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,

@@ -1,6 +1,7 @@
 // What the passes need beside the parameters, once; derived from scene and parameters by weir_constants_make().
 //
 //   WEIR_CONSTANT_VECTOR(name, help)   float[4] in C, vec4f in WGSL
+//   WEIR_CONSTANT_PLACE(name, help)    int32_t[4] in C, vec4i in WGSL
 //   WEIR_CONSTANT_NUMBER(name, help)   float in C, f32 in WGSL
 //   WEIR_CONSTANT_COUNT(name, help)    uint32_t in C, u32 in WGSL
 
@@ -10,6 +11,10 @@ WEIR_CONSTANT_VECTOR(tool_position, "m")
 WEIR_CONSTANT_VECTOR(tool_velocity, "m/s")
 WEIR_CONSTANT_VECTOR(origin, "wcsph: place of coordinate 0, m; coordinates count quanta from here")
 WEIR_CONSTANT_VECTOR(center, "wcsph: middle of the domain, where central_force pulls to, m")
+WEIR_CONSTANT_PLACE(seal_low, "wcsph: lowest place of free fluid, which walls stop there, quanta; INT32_MIN along axes without")
+WEIR_CONSTANT_PLACE(seal_high, "wcsph: the highest; INT32_MAX along axes without")
+WEIR_CONSTANT_PLACE(inside_low, "wcsph: lowest place from which fluid is not lost, quanta; INT32_MIN along periodic axes")
+WEIR_CONSTANT_PLACE(inside_high, "wcsph: the highest; INT32_MAX along periodic axes")
 WEIR_CONSTANT_NUMBER(tool_radius, "m")
 WEIR_CONSTANT_NUMBER(tool_strength, "m/s^2 for push and pull, 1/s for stir")
 WEIR_CONSTANT_NUMBER(particle_mass, "kg (per metre of depth in 2D)")
@@ -26,12 +31,13 @@ WEIR_CONSTANT_NUMBER(inverse_support, "wcsph: 2^-coordinate_bits, support radii 
 WEIR_CONSTANT_NUMBER(smoothing_length, "wcsph: h, m: half of the support radius, a third of it for the quintic spline")
 WEIR_CONSTANT_NUMBER(kernel_factor, "wcsph: normalisation of W, 1/m^d")
 WEIR_CONSTANT_NUMBER(gradient_factor, "wcsph: normalisation of (dW/dr) / r, negative, 1/m^(d+2)")
-WEIR_CONSTANT_NUMBER(spacing_value, "wcsph: W at one particle spacing / kernel_factor, for shifting")
+WEIR_CONSTANT_NUMBER(clustering_factor, "wcsph: 0.2 / W^4, W at one particle spacing / kernel_factor, for shifting")
 WEIR_CONSTANT_NUMBER(shifting_limit, "wcsph: flow speed times time step beyond which shifting overshoots, m")
 WEIR_CONSTANT_NUMBER(lattice_filling, "wcsph: sum of V W over a lattice at rest")
 WEIR_CONSTANT_NUMBER(laplacian_factor, "wcsph: the Laplacian over sum_j (1 - r / R) (f_j - f_i) / rho_j, exact on the densest lattice, kg/m^(d+2)")
 WEIR_CONSTANT_NUMBER(diffusion_limit, "wcsph: most of dt (dt + delta h / c0) for which the density's diffusion is stable, s^2")
 WEIR_CONSTANT_NUMBER(sound_speed, "wcsph: c0, chosen from the scene if the parameter is 0, m/s")
+WEIR_CONSTANT_NUMBER(acoustic_rate, "wcsph: c0 / h, 1/s")
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(laminar_factor, "wcsph: friction_factor if laminar viscosity is the larger one, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(friction_factor, "wcsph: 2 mu, calibrated so that the Laplacian is exact on the densest lattice, Pa s")
@@ -55,5 +61,6 @@ WEIR_CONSTANT_COUNT(first_solid, "wcsph: ids from here on are wall and body part
 WEIR_CONSTANT_COUNT(solid_count, "wcsph: walls and bodies")
 
 #undef WEIR_CONSTANT_VECTOR
+#undef WEIR_CONSTANT_PLACE
 #undef WEIR_CONSTANT_NUMBER
 #undef WEIR_CONSTANT_COUNT

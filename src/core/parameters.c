@@ -31,6 +31,7 @@ const char weir_wgsl_structs[] = "struct Parameters {\n"
 #include "core/params.inl"
                                  "}\nstruct Constants {\n"
 #define WEIR_CONSTANT_VECTOR(name, help) "    @align(16) @size(16) " #name ": vec4f,\n"
+#define WEIR_CONSTANT_PLACE(name, help)  "    @align(16) @size(16) " #name ": vec4i,\n"
 #define WEIR_CONSTANT_NUMBER(name, help) "    @size(4) " #name ": f32,\n"
 #define WEIR_CONSTANT_COUNT(name, help)  "    @size(4) " #name ": u32,\n"
 #include "core/constants.inl"
@@ -40,7 +41,7 @@ const char weir_wgsl_structs[] = "struct Parameters {\n"
 static_assert(sizeof(WeirParameters) % 16 == 0, "WeirParameters must have the size of its WGSL struct");
 static_assert(sizeof(WeirConstants) % 16 == 0, "WeirConstants must have the size of its WGSL struct");
 static_assert(offsetof(WeirParameters, particle_spacing) == 16, "numbers follow the vectors without a gap");
-static_assert(offsetof(WeirConstants, tool_radius) == 6 * 16, "numbers follow the vectors without a gap");
+static_assert(offsetof(WeirConstants, tool_radius) == 10 * 16, "numbers follow the vectors without a gap");
 
 uint32_t weir_parameter_count(void)
 {

@@ -17,6 +17,7 @@ typedef struct WeirParameters {
 
 typedef struct WeirConstants {
 #define WEIR_CONSTANT_VECTOR(name, help) alignas(16) float name[4];
+#define WEIR_CONSTANT_PLACE(name, help)  alignas(16) int32_t name[4];
 #define WEIR_CONSTANT_NUMBER(name, help) float name;
 #define WEIR_CONSTANT_COUNT(name, help)  uint32_t name;
 #include "core/constants.inl"

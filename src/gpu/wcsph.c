@@ -31,7 +31,8 @@ static void record_sorting(const WeirRecorder *recorder, uint32_t pass, uint32_t
         weir_record(recorder, pass);
 }
 
-// Does nothing where the device finds that order and lists still last. `indirect`: it has left the sizes of the dispatches.
+// Passes of a sort, and of lists, do nothing where the device finds that order or lists still last. `indirect`: it has left the
+// sizes of the dispatches.
 static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder, bool indirect)
 {
     if (solver->traits.emitter_count > 0) {
@@ -42,7 +43,11 @@ static void record_sort(const WeirWcsphGpu *solver, const WeirRecorder *recorder
     record_sorting(recorder, WEIR_WCSPH_SCAN_REDUCE, WEIR_SORT_BLOCKS, indirect);
     record_sorting(recorder, WEIR_WCSPH_SCAN_WRITE, WEIR_SORT_BLOCKS, indirect);
     record_sorting(recorder, WEIR_WCSPH_SCATTER, WEIR_SORT_PARTICLES, indirect);
-    record_sorting(recorder, WEIR_WCSPH_NEIGHBORS, WEIR_SORT_PARTICLES, indirect);
+}
+
+static void record_lists(const WeirRecorder *recorder, bool indirect)
+{
+    record_sorting(recorder, WEIR_WCSPH_NEIGHBORS, WEIR_SORT_LISTS, indirect);
 }
 
 // The first step's length and the first half of its move; later steps find theirs done where the one before finished.
@@ -62,17 +67,28 @@ static void record_walls(const WeirWcsphGpu *solver, const WeirRecorder *recorde
         weir_record(recorder, WEIR_WCSPH_TIME_STEP);
 }
 
-static void record_step(WeirWcsphGpu *solver, const WeirRecorder *recorder, bool may_sort)
+// Whether what the device does every `interval` steps may be due.
+static bool may_be_due(const WeirWcsphGpu *solver, uint32_t interval)
 {
-    if (may_sort) record_sort(solver, recorder, solver->indirect);
-    if (!solver->traits.one_pass) record_walls(solver, recorder);
+    return !solver->certain || solver->counted % interval == 0;
+}
+
+// `measured`: with all passes.
+static void record_step(WeirWcsphGpu *solver, const WeirRecorder *recorder, bool measured)
+{
+    const WeirWcsphTraits *traits = &solver->traits;
+    if (measured || may_be_due(solver, traits->sort_interval))
+        record_sort(solver, recorder, solver->indirect);
+    if (measured || may_be_due(solver, traits->list_interval)) record_lists(recorder, solver->indirect);
+    if (!traits->one_pass) record_walls(solver, recorder);
     weir_record_turn(recorder, WEIR_WCSPH_FORCES, solver->turn);
     solver->turn = (solver->turn + 1) % 3;
-    if (solver->traits.free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
-    if (solver->traits.moving_solids) {
+    if (traits->free_solids) weir_record(recorder, WEIR_WCSPH_SOLID_FORCES);
+    if (traits->moving_solids) {
         weir_record(recorder, WEIR_WCSPH_SOLIDS);
         weir_record(recorder, WEIR_WCSPH_FINISH);
     }
+    ++solver->counted;
 }
 
 void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, WeirEvaluation how)
@@ -80,10 +96,12 @@ void weir_gpu_wcsph_evaluate(WeirWcsphGpu *solver, WGPUCommandEncoder encoder, W
     WeirRecorder recorder = weir_recorder_begin(&solver->common, encoder);
     if (how == WEIR_EVALUATE_RESTORED) weir_record(&recorder, WEIR_WCSPH_STORE);
     weir_record(&recorder, WEIR_WCSPH_BEGIN_READ);
-    if (how == WEIR_EVALUATE_NEW)
+    if (how == WEIR_EVALUATE_NEW) {
         record_sort(solver, &recorder, false);
-    else
+        record_lists(&recorder, false);
+    } else {
         weir_record(&recorder, WEIR_WCSPH_LOAD);
+    }
     record_walls(solver, &recorder);
     if (how == WEIR_EVALUATE_NEW) weir_record(&recorder, WEIR_WCSPH_STORE); // with what solids see
     weir_record(&recorder, WEIR_WCSPH_FORCES_READ);
@@ -116,15 +134,10 @@ static void submit_steps(WeirWcsphGpu *solver, uint32_t steps, bool first, bool 
         recorder = weir_recorder_measure(common, encoder);
         record_step(solver, &recorder, true);
         weir_recorder_end(&recorder);
-        ++solver->counted;
         --steps;
     }
     recorder = weir_recorder_batch(common, encoder, steps, measured && steps > 0);
-    for (uint32_t n = 0; n < steps; ++n) {
-        bool may_sort = !solver->certain || solver->counted % solver->traits.sort_interval == 0;
-        record_step(solver, &recorder, may_sort);
-        ++solver->counted;
-    }
+    for (uint32_t n = 0; n < steps; ++n) record_step(solver, &recorder, false);
     if (last) weir_record(&recorder, WEIR_WCSPH_HEALTH);
     weir_recorder_end(&recorder);
     weir_gpu_solver_submit_steps(common, encoder, measured);
@@ -183,7 +196,9 @@ static WeirWcsphTraits wanted_traits(const WeirWcsphGpu *solver)
     WeirWcsphTraits traits = solver->traits;
     traits.emission_interval =
         weir_world_emission_interval(&solver->world, &common->wanted_parameters, &common->wanted_constants);
-    if (traits.sort_interval > traits.emission_interval) traits.sort_interval = traits.emission_interval;
+    if (traits.emitter_count > 0 && traits.sort_interval > traits.emission_interval)
+        traits.sort_interval = traits.emission_interval;
+    if (traits.list_interval > traits.sort_interval) traits.list_interval = traits.sort_interval;
     return traits;
 }
 
@@ -239,7 +254,7 @@ static void write_schedule(WeirWcsphGpu *solver, uint32_t next_due[2])
 static void write_control(WeirWcsphGpu *solver)
 {
     WeirWcsphControl control = {.bad_step = UINT32_MAX, .bad_slot = UINT32_MAX, .starting = 1};
-    control.clock.sorting = 1;
+    control.clock.sorting = control.clock.listing = 1;
     control.clock.next_allowance = solver->traits.least_allowance;
     write_schedule(solver, control.next_due);
     weir_buffers_write(&solver->common.buffers, WEIR_WCSPH_control, &control, sizeof control);
@@ -320,6 +335,7 @@ static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
     weir_pass_groups(common->gpu, groups, sorting[WEIR_SORT_PARTICLES]);
     weir_pass_groups(common->gpu, scan_blocks, sorting[WEIR_SORT_BLOCKS]);
     weir_pass_groups(common->gpu, 1, sorting[WEIR_SORT_ONE]);
+    weir_pass_groups(common->gpu, groups, sorting[WEIR_SORT_LISTS]);
     weir_buffers_write(&common->buffers, WEIR_WCSPH_step_end, sizes, sizeof sizes);
     solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
 }

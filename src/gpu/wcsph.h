@@ -94,7 +94,7 @@ typedef enum WeirWcsphGpuPass {
 
 // Sizes of dispatches in step_end: of passes over particles, over blocks of cells, and of one workgroup; first as the
 // device decides them for the next sort, then as they are if there is one.
-enum { WEIR_SORT_PARTICLES, WEIR_SORT_BLOCKS, WEIR_SORT_ONE, WEIR_SORT_SIZES };
+enum { WEIR_SORT_PARTICLES, WEIR_SORT_BLOCKS, WEIR_SORT_ONE, WEIR_SORT_LISTS, WEIR_SORT_SIZES };
 
 // What a world asks of the passes.
 typedef struct WeirWcsphTraits {
@@ -104,15 +104,17 @@ typedef struct WeirWcsphTraits {
     uint32_t probe_count, most_gathered; // particles that probes may look at together
     float fastest_surface;               // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
-    uint32_t sort_interval;     // steps; particles may be sorted before those whose number it divides
-    uint32_t emission_interval; // a multiple of it: weir_world_emission_interval()
+    uint32_t list_interval;     // steps; lists may be made anew before those whose number it divides,
+    uint32_t sort_interval;     // and particles sorted: a multiple of it;
+    uint32_t emission_interval; // and emitters act: a multiple of that, weir_world_emission_interval()
     uint32_t lanes;             // threads that share a particle's neighbours: 1, 2, 4, 8
     uint32_t share_threads;     // of a workgroup of pass forces
     uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
     uint32_t list_shares,
         list_blocks; // shares of the lists' buffer; of 128 particles' lists each holds so many
     uint32_t row_height, layer_height;        // of cells, quanta
-    uint32_t least_allowance, most_allowance; // of the way after which particles are sorted anew, quanta
+    uint32_t least_allowance, most_allowance; // of the way after which lists are made anew, quanta;
+    uint32_t most_stray;                      // twice that and the way since the sort
     bool one_pass;                            // forces is the whole step: in 2D where no solid moves
     bool marks_mixed;                         // lists of fluid alone are summed apart from others
 } WeirWcsphTraits;
@@ -127,14 +129,15 @@ typedef struct WeirWcsphClock {
     uint32_t steps_left, running, stepping, steps;
     uint32_t time[2], began[2];
     float dt, next_dt, free_dt, max_speed;
-    uint32_t side, last_side, sorting, stale;
+    uint32_t side, last_side, sorting, listing, stale, worn;
     uint32_t travelled, next_allowance, noting;
-    float left;
+    float left, flow_speed, due_excess, diffusion;
+    uint32_t unused;
 } WeirWcsphClock;
 
 typedef struct WeirWcsphMaxima {
-    uint32_t speed_bits, acceleration_bits, error_bits;
-    uint32_t moved_finish, moved_drift, bad;
+    uint32_t speed2_bits, acceleration2_bits, excess_bits;
+    uint32_t finish2_bits, drift2_bits, bad;
     uint32_t unused[26];
 } WeirWcsphMaxima;
 
@@ -144,17 +147,17 @@ typedef struct WeirWcsphControl {
     float solid_speed;
     uint32_t bad_id;
     int32_t bad_place[4];
-    uint32_t next_due[2], sorted_at, allowance;
+    uint32_t next_due[2], sorted_at, listed_at, allowance, unused_here;
     WeirWcsphClock clock;
-    uint32_t unused[28];
+    uint32_t unused[20];
     WeirWcsphClock clocks[3];
-    uint32_t unused_too[4];
+    uint32_t unused_too[18];
     WeirWcsphMaxima maxima[3];
     uint32_t bad_particles, bad_step, bad_slot; // bad_step UINT32_MAX: none
     uint32_t drained, lost, unused_at_last[3];
 } WeirWcsphControl;
-static_assert(offsetof(WeirWcsphControl, clocks) == 256 && offsetof(WeirWcsphControl, maxima) == 512 &&
-                  sizeof(WeirWcsphControl) == 928,
+static_assert(offsetof(WeirWcsphControl, clocks) == 256 && offsetof(WeirWcsphControl, maxima) == 640 &&
+                  sizeof(WeirWcsphControl) == 1056,
               "the layout of the shaders' struct");
 
 static_assert(sizeof(WeirSolid) == 176 && sizeof(WeirSolidState) == 144, "strides of the shaders' arrays");

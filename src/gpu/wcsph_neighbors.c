@@ -12,8 +12,11 @@ static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowa
 static const double list_margin = 1.25;
 // Longer lists cannot be meant: 8 entries each.
 static const double most_parts = 4096.0;
-// Sorting takes five dispatches, with emitters seven, even if there is nothing to do: below so many pairs it is offered
-// as seldom as layers of emitters allow.
+// In 2D lists may be made anew from cells that particles have left so far, and a walk around cells costs more by it. In 3D
+// they have room for what the longest allowance leaves.
+static const double most_stray = 0.6;
+static const uint32_t lists_per_sort = 4; // chances
+// A pass takes 4 us even if there is nothing to do: below so many pairs lists and sorts are offered every few steps only.
 static const double pairs_for_every_step = 2e7;
 // Particles whose lists lie side by side, `PART_STRIDE` in common/lists.wgsl.
 enum { LIST_BLOCK = 128 };
@@ -103,11 +106,23 @@ static uint32_t lanes_for(double particles, double neighbors, bool software)
     return lanes;
 }
 
-// Threads of a workgroup of pass forces: in 3D small ones where several share a particle, large ones elsewhere.
+// Threads of a workgroup of pass forces: large ones where particles have one thread each, in 3D small ones elsewhere.
 static uint32_t share_threads_for(uint32_t dimension, uint32_t lanes)
 {
-    if (dimension == 2) return WEIR_WORKGROUP_SIZE;
-    return lanes > 1 ? WEIR_WORKGROUP_SIZE / 2 : 2 * WEIR_WORKGROUP_SIZE;
+    if (lanes == 1) return 2 * WEIR_WORKGROUP_SIZE;
+    return dimension == 3 ? WEIR_WORKGROUP_SIZE / 2 : WEIR_WORKGROUP_SIZE;
+}
+
+// How often particles are sorted. `margin`: how far lists look beyond the support, in supports; 0: there are none.
+static void take_sorting(WeirWcsphTraits *traits, const WeirConstants *constants, double margin)
+{
+    bool strays = margin > 0.0 && constants->dimension == 2;
+    // Sorts bring places back into a periodic domain, by one period.
+    bool repeats = constants->period_x > 0 || constants->period_y > 0;
+    traits->sort_interval =
+        strays && !repeats ? lists_per_sort * traits->list_interval : traits->list_interval;
+    double support = (double)(1u << constants->coordinate_bits);
+    traits->most_stray = (uint32_t)((margin + (strays ? most_stray : 0.0)) * support);
 }
 
 void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *parameters,
@@ -119,7 +134,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
     traits->share_threads = share_threads_for(constants->dimension, traits->lanes);
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
-    traits->sort_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
+    traits->list_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
     traits->list_parts = parts_of_lists(parameters, constants, most);
     bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);
@@ -130,6 +145,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);
+    take_sorting(traits, constants, lists ? 2.0 * most : 0.0);
     // One row on either side holds all of a list, or what a walk wants while the order lasts.
     uint32_t height = (uint32_t)((1.0 + (lists ? 2.0 : 1.0) * most) * support) + 16;
     traits->row_height = height > 1u << constants->row_shift ? height : 1u << constants->row_shift;

@@ -106,8 +106,7 @@ static const char *const bodies_part[] = {weir_wgsl_common_clock, weir_wgsl_comm
 static const char *const drift_part[] = {weir_wgsl_common_drift, NULL};
 static const char *const finish_part[] = {weir_wgsl_common_drift, weir_wgsl_common_finish, NULL};
 static const char *const sorting_part[] = {weir_wgsl_common_sorting, NULL};
-static const char *const lists_part[] = {weir_wgsl_common_sorting, weir_wgsl_common_lists,
-                                         weir_wgsl_common_near, NULL};
+static const char *const lists_part[] = {weir_wgsl_common_lists, weir_wgsl_common_near, NULL};
 static const char *const walls_part[] = {
     weir_wgsl_common_clock, weir_wgsl_common_emitters,  weir_wgsl_common_step_end,
     weir_wgsl_common_start, weir_wgsl_common_lists,     weir_wgsl_common_near,
@@ -152,10 +151,9 @@ static const WeirPassInfo passes[WEIR_WCSPH_PASS_TOTAL] = {
                                BIT(cell_count) | BIT(cell_start), WEIR_ITEMS_CELL_BLOCKS},
     [WEIR_WCSPH_SCATTER] = {WCSPH(scatter), NULL, NULL, BIT(id) | BIT(cell_link) | BIT(cell_start),
                             PARTICLES | BIT(sorted_id) | BIT(control), WEIR_ITEMS_SORTING},
-    [WEIR_WCSPH_NEIGHBORS] = {WCSPH(neighbors), NULL, lists_part,
-                              BIT(coordinate) | BIT(sorted_id) | BIT(control),
+    [WEIR_WCSPH_NEIGHBORS] = {WCSPH(neighbors), NULL, lists_part, BIT(coordinate) | BIT(sorted_id),
                               BIT(cell_start) | BIT(neighbor_list) | BIT(solid_particle) | BIT(id) |
-                                  BIT(cell_link),
+                                  BIT(cell_link) | BIT(control),
                               WEIR_ITEMS_SORTING},
     [WEIR_WCSPH_WALLS] = {WCSPH(walls), NULL, walls_part,
                           BIT(coordinate) | SEARCH | BIT(solid_particle) | BIT(solid_state),
@@ -277,11 +275,14 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("LANES", traits->lanes);
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
+    NUMBER("LIST_INTERVAL", traits->list_interval);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
     NUMBER("SORT_SIZES", (uint32_t)WEIR_SORT_SIZES);
+    NUMBER("SORT_LISTS", (uint32_t)WEIR_SORT_LISTS);
     NUMBER("EMISSION_INTERVAL", traits->emission_interval);
     APPEND("const LEAST_ALLOWANCE = %u.0;\nconst MOST_ALLOWANCE = %u.0;\n", traits->least_allowance,
            traits->most_allowance);
+    APPEND("const MOST_STRAY = %u.0;\n", traits->most_stray);
     APPEND("const FASTEST_SURFACE = %.9e;\n", (double)traits->fastest_surface);
     NUMBER("SOLID_COUNT", traits->solid_count > 0 ? traits->solid_count : 1);
     NUMBER("FREE_BLOCKS", traits->free_block_count);

@@ -4,6 +4,7 @@
 #include "gpu/sums.h"
 #include "gpu/wcsph.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -39,8 +40,8 @@ void weir_gpu_wcsph_take_health(WeirGpuSolver *common, const void *copy)
     health->steps = solver->steps_before + seen->clock.steps;
     health->time = seconds_of(seen->clock.time);
     health->time_step = seen->clock.free_dt;
-    health->max_speed = float_of(maxima->speed_bits);
-    health->max_density_error = float_of(maxima->error_bits);
+    health->max_speed = sqrtf(float_of(maxima->speed2_bits));
+    health->max_density_error = float_of(maxima->excess_bits) / common->parameters.rest_density;
     health->drained_particles = seen->drained;
     health->lost_particles = seen->lost;
     health->fluid_particles = solver->fluid_at_start + seen->emitted - seen->drained - seen->lost;

@@ -283,7 +283,7 @@ static void follows_the_cpu_with_marked_lists(void **state)
     assert_int_equal(runs, 6);
 }
 
-// Where particles outrun their lists before they may be sorted anew, the walk over cells finds the same neighbours: here
+// Where particles outrun their lists before those may be made anew, the walk over cells finds the same neighbours: here
 // lists are made for a way of one quantum. Lanes share such a walk too.
 static void outrun_lists_lose_nobody(void **state)
 {
@@ -295,7 +295,7 @@ static void outrun_lists_lose_nobody(void **state)
         WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
         WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
         WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
-        assert_int_equal(solver->traits.sort_interval, 4);
+        assert_int_equal(solver->traits.list_interval, 4);
         solver->traits.least_allowance = solver->traits.most_allowance = 1;
         begin_anew(on_gpu, &test, lanes[n]);
         uint32_t outrun = 0;
@@ -303,10 +303,47 @@ static void outrun_lists_lose_nobody(void **state)
             take_steps(on_gpu, 3, INFINITY);
             take_steps(on_cpu, 3, INFINITY);
             health_of(on_gpu);
-            outrun += solver->seen.clock.travelled - solver->seen.sorted_at > solver->seen.allowance;
+            outrun += solver->seen.clock.travelled - solver->seen.listed_at > solver->seen.allowance;
         }
         assert_true(outrun > 5);
         assert_int_equal(solver->seen.allowance, 1);
+        compare(names[n], &test, on_gpu, on_cpu, 2e-3);
+        on_gpu->interface->destroy(on_gpu);
+        on_cpu->interface->destroy(on_cpu);
+        weir_test_world_free(&test);
+    }
+}
+
+// Lists may be made anew while particles keep the slots and cells of the last sort, wherever they have gone since: here sorts
+// are all but given up, and particles move on by up to two supports.
+static void lists_without_a_sort_lose_nobody(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"dam_2d", "bodies_2d", "body_3d"};
+    static const uint32_t lanes[] = {1, 4, 2};
+    for (size_t n = 0; n < sizeof names / sizeof names[0]; ++n) {
+        WeirTestWorld test = weir_test_case(names[n]);
+        WeirSolver *on_gpu = weir_test_world_solver(&test, backend_of(true));
+        WeirSolver *on_cpu = weir_test_world_solver(&test, backend_of(false));
+        WeirWcsphGpu *solver = (WeirWcsphGpu *)on_gpu;
+        uint32_t support = 1u << ((WeirGpuSolver *)on_gpu)->constants.coordinate_bits;
+        solver->traits.least_allowance = solver->traits.most_allowance = support / 50;
+        solver->traits.most_stray = 100 * support;
+        begin_anew(on_gpu, &test, lanes[n]);
+        take_steps(on_gpu, 1, INFINITY);
+        health_of(on_gpu);
+        uint32_t sorted_at = solver->seen.sorted_at, listed_at = solver->seen.listed_at, lists = 0;
+        take_steps(on_cpu, 1, INFINITY);
+        for (int k = 0; k < 20; ++k) {
+            take_steps(on_gpu, 4, INFINITY);
+            take_steps(on_cpu, 4, INFINITY);
+            health_of(on_gpu);
+            lists += solver->seen.listed_at != listed_at;
+            listed_at = solver->seen.listed_at;
+        }
+        assert_int_equal(solver->seen.sorted_at, sorted_at);
+        assert_true(lists > 5);
+        assert_true(listed_at - sorted_at > support);
         compare(names[n], &test, on_gpu, on_cpu, 2e-3);
         on_gpu->interface->destroy(on_gpu);
         on_cpu->interface->destroy(on_cpu);
@@ -348,6 +385,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(counts_the_lost),
         cmocka_unit_test(follows_the_cpu),
         cmocka_unit_test(outrun_lists_lose_nobody),
+        cmocka_unit_test(lists_without_a_sort_lose_nobody),
         cmocka_unit_test(walks_find_what_lists_find),
     };
     const struct CMUnitTest lanes[] = {

@@ -439,20 +439,25 @@ static void taps_never_run_dry(void **state)
     weir_test_world_free(&test);
 }
 
-// Sorts are offered at the emitters' chances alone, more often where parameters that change make faster flow of it.
+// Where emitters act sorts are offered at their chances, more often where parameters that change make faster flow of it.
 static void sorts_are_offered_for_layers(void **state)
 {
     (void)state;
     static const struct {
         const char *name;
-        uint32_t interval;
-    } cases[] = {{"dam_2d", 4}, {"taps_2d", 4}, {"tap_3d", 4}, {"tap_2d", 2}};
+        uint32_t lists, sorts, layers;
+    } cases[] = {{"dam_2d", 4, 16, 4},
+                 {"periodic_3d", 4, 4, 4},
+                 {"taps_2d", 4, 4, 4},
+                 {"tap_3d", 4, 4, 4},
+                 {"tap_2d", 2, 2, 2}};
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
         WeirTestWorld test = weir_test_case(cases[n].name);
         WeirSolver *solver = weir_test_world_solver(&test, weir_gpu_backend(gpu));
         const WeirWcsphTraits *traits = &((WeirWcsphGpu *)solver)->traits;
-        assert_int_equal(traits->sort_interval, cases[n].interval);
-        assert_int_equal(traits->emission_interval, cases[n].interval);
+        assert_int_equal(traits->list_interval, cases[n].lists);
+        assert_int_equal(traits->sort_interval, cases[n].sorts);
+        assert_int_equal(traits->emission_interval, cases[n].layers);
         solver->interface->destroy(solver);
         weir_test_world_free(&test);
     }

@@ -41,18 +41,9 @@ static inline WeirMask select_places(WeirMask mask, WeirMask a, WeirMask b)
 // Fluid beyond an open side, or beyond a wall by more than a support radius, is gone.
 static inline WeirMask is_outside(const WeirConstants *constants, const WeirMask x[3])
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
-    float reach = constants->search_radius;
     WeirMask outside = {0};
-    for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
-        if (periods[axis] > 0) continue;
-        WeirLanes place =
-            constants->origin[axis] + __builtin_convertvector(x[axis], WeirLanes) * constants->quantum;
-        float low = constants->open_sides >> (2 * axis) & 1 ? 0.0f : reach;
-        float high = constants->open_sides >> (2 * axis + 1) & 1 ? 0.0f : reach;
-        outside |= (WeirMask)(place < constants->domain_min[axis] - low) |
-                   (WeirMask)(place > constants->domain_max[axis] + high);
-    }
+    for (uint32_t axis = 0; axis < constants->dimension; ++axis)
+        outside |= (x[axis] < constants->inside_low[axis]) | (x[axis] > constants->inside_high[axis]);
     return outside;
 }
 
@@ -237,29 +228,16 @@ static void note_bad(Maxima *maxima, const uint32_t *id, WeirMask bad)
 }
 
 // The seal of the domain's own walls: no free fluid stays deeper in them than half a spacing, where their first layer lies.
-static const float seal_depth = 0.45f; // spacings
-
-static inline void seal(const WeirWcsph *solver, uint32_t axis, WeirMask free, WeirMask *x, WeirLanes *v)
+static inline void seal(const WeirConstants *constants, uint32_t axis, WeirMask free, WeirMask *x,
+                        WeirLanes *v)
 {
-    const WeirConstants *constants = &solver->constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     const WeirLanes zero = {0};
-    float depth = seal_depth * solver->parameters.particle_spacing;
-    float low = (constants->domain_min[axis] - depth - constants->origin[axis]) * constants->inverse_quantum;
-    float high = (constants->domain_max[axis] + depth - constants->origin[axis]) * constants->inverse_quantum;
-    bool open_low = constants->open_sides >> (2 * axis) & 1,
-         open_high = constants->open_sides >> (2 * axis + 1) & 1;
-    if (periods[axis] > 0) return;
-    if (!open_low) {
-        WeirMask below = (WeirMask)(__builtin_convertvector(*x, WeirLanes) < low) & free;
-        *x = select_places(below, free - free + (int32_t)low, *x);
-        *v = weir_lanes_select(below, weir_lanes_max(*v, zero), *v);
-    }
-    if (!open_high) {
-        WeirMask above = (WeirMask)(__builtin_convertvector(*x, WeirLanes) > high) & free;
-        *x = select_places(above, free - free + (int32_t)high, *x);
-        *v = weir_lanes_select(above, weir_lanes_min(*v, zero), *v);
-    }
+    const WeirMask low = (WeirMask){0} + constants->seal_low[axis],
+                   high = (WeirMask){0} + constants->seal_high[axis];
+    WeirMask below = (*x < low) & free, above = (*x > high) & free;
+    *x = select_places(below, low, select_places(above, high, *x));
+    *v = weir_lanes_select(below, weir_lanes_max(*v, zero), *v);
+    *v = weir_lanes_select(above, weir_lanes_min(*v, zero), *v);
 }
 
 // Share of the rest density below which fluid is not stretched, but torn: its tension would pull without bound.
@@ -289,7 +267,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
             WeirMask from = weir_mask_load(to->x[axis] + i);
             WeirMask x =
                 moved(constants, from, half * v + (WeirLanes)((WeirMask)shift & free), periods[axis]);
-            seal(solver, axis, free, &x, &v);
+            seal(constants, axis, free, &x, &v);
             weir_mask_store(to->x[axis] + i, select_places(fluid, x, from));
             weir_lanes_store(to->velocity[axis] + i,
                              weir_lanes_select(fluid, v, weir_lanes_load(to->velocity[axis] + i)));

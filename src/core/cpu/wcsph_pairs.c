@@ -219,7 +219,7 @@ static const float start_pace = 1000.0f; // before the first step: no bound
 typedef struct ForceSums {
     Vector pressure;      // sum p_j / rho_j F^ x
     Vector gradient;      // sum 1 / rho_j F^ x
-    Vector clustering;    // sum 1 / rho_j (W / W(spacing))^4 F^ x
+    Vector clustering;    // sum 1 / rho_j (W / kernel_factor)^4 F^ x
     Vector viscous;       // sum 1 / rho_j F^ (v . x) / r^2 x, between fluid
     Vector laminar;       // sum 1 / rho_j F^ v, between fluid
     Vector friction;      // the same between fluid and no-slip solids
@@ -233,7 +233,7 @@ typedef struct ForceSums {
 
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
-    float inverse_support, inverse_spacing;
+    float inverse_support;
     float second_half_in_supports;               // 3/2 of second_half, in supports
     float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
@@ -254,7 +254,6 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
     float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
     return (ForceLanes){
         .inverse_support = constants->inverse_support,
-        .inverse_spacing = 1.0f / constants->spacing_value,
         .second_half_in_supports = 1.5f * data->second_half * constants->inverse_support,
         .viscous = constants->viscosity_factor != 0.0f,
         .laminar = constants->laminar_factor != 0.0f,
@@ -384,8 +383,7 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     sums->filling += shape * inverse_density;
     if (solids) return;
     sums->surface += slope * r2;
-    if (own->clustering)
-        add_scaled(&sums->clustering, slope * lanes_power4(shape * own->inverse_spacing), x, variant);
+    if (own->clustering) add_scaled(&sums->clustering, slope * lanes_power4(shape), x, variant);
     add_rates(data, own, j, x, r2, inverse_r, s, inverse_density, v, approach, variant, sums);
 }
 
@@ -498,7 +496,8 @@ INLINE Vector shift_of(const WeirWcsphData *data, const ForceSums *sums, WeirMas
     Vector shift = {{0}, {0}, {0}};
     WeirLanes *u = &shift.x;
     for (int axis = 0; axis < 3; ++axis)
-        u[axis] = weir_lanes_select(inside, factor * (g[axis] + 0.2f * c[axis]), zero);
+        u[axis] =
+            weir_lanes_select(inside, factor * (g[axis] + constants->clustering_factor * c[axis]), zero);
     WeirLanes length = weir_lanes_sqrt(dot(shift, shift, variant));
     WeirLanes scale = weir_lanes_select((WeirMask)(length > most), most / length, weir_lanes_fill(1.0f));
     for (int axis = 0; axis < 3; ++axis) u[axis] *= scale;
@@ -512,15 +511,15 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
 {
     const WeirConstants *constants = data->constants;
     const WeirLanes zero = {0};
-    float c0 = constants->sound_speed, h = constants->smoothing_length, bulk = (float)constants->dimension;
+    float acoustic = constants->acoustic_rate, bulk = (float)constants->dimension;
     WeirLanes filling = constants->particle_mass * constants->kernel_factor * sums->filling;
-    WeirLanes volume = (filling - constants->lattice_filling) * c0 / (volume_time * h);
+    WeirLanes volume = (filling - constants->lattice_filling) * (acoustic / volume_time);
     WeirLanes full = filling * (full_support * bulk / constants->lattice_filling);
     rate = weir_lanes_select((WeirMask)(surface >= full), rate + volume, rate);
     WeirLanes crowd = filling - crowded_limit * constants->lattice_filling;
-    rate += weir_lanes_max(crowd, zero) * c0 / (crowded_time * h);
+    rate += weir_lanes_max(crowd, zero) * (acoustic / crowded_time);
     WeirLanes lack = -weir_lanes_load(data->excess + begin);
-    WeirLanes pace = weir_lanes_load(data->inverse_density + begin) * c0 / h;
+    WeirLanes pace = weir_lanes_load(data->inverse_density + begin) * acoustic;
     WeirLanes due = weir_lanes_fill(data->due_excess);
     WeirLanes undue = weir_lanes_max(lack - due, zero) - weir_lanes_max(-lack - due, zero);
     WeirMask ragged = (WeirMask)(surface < ragged_limit * bulk);
