@@ -28,7 +28,7 @@ fn clear_finish() {
 }
 
 fn publish_finish() {
-    if atomicLoad(&finish2_most) > 0u {
+    if (atomicLoad(&excess_most) | atomicLoad(&finish2_most) | atomicLoad(&drift2_most)) > 0u {
         atomicMax(&control.maxima[now().noting].excess_bits, atomicLoad(&excess_most));
         atomicMax(&control.maxima[now().noting].finish2_bits, atomicLoad(&finish2_most));
         atomicMax(&control.maxima[now().noting].drift2_bits, atomicLoad(&drift2_most));
