@@ -11,10 +11,6 @@ const BRAKE_LIMIT = 0.1;    // c0
 const BARRIER_SHARE = 0.5;  // of overlap and approach, that one step may take
 const START_PACE = 1000.0;  // before the first step: no bound
 
-fn quanta_of_spacings(count: f32) -> f32 {
-    return count * parameters.particle_spacing * constants.inverse_quantum;
-}
-
 // Velocity of a solid at one of its particles, from where that is.
 fn motion_of_solid(group: u32, place: Place) -> vec3f {
     let n = group - GROUP_SOLID;
@@ -95,13 +91,13 @@ fn barrier_of(own: vec4i, own_motion: vec4f, reach: f32) -> Vector {
     return (constants.sound_speed * constants.sound_speed / parameters.particle_spacing) * sum;
 }
 
-// Whether another solid may be as near, as far as the list of the particle says that begins so.
+// Whether contact_force() may find another solid. `header`: the first word of the particle's list.
 fn may_touch(header: u32) -> bool {
     let is_told = LISTS && header != NO_LIST && now().travelled - control.listed_at <= control.allowance;
     return !is_told || (header & MEETS_SOLID) != 0u;
 }
 
-// Penalty contact of a free body's particle with other solids closer than one spacing: stiff as the fluid, half
+// Penalty contact of a free body's particle with other solids closer than CONTACT_RANGE: stiff as the fluid, half
 // damped, never attracting; less so if either is light.
 fn contact_force(own: vec4i) -> Vector {
     let spacing = parameters.particle_spacing;
@@ -111,7 +107,7 @@ fn contact_force(own: vec4i) -> Vector {
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
     let start = side_start(now().last_side);
-    let reach = touching_range();
+    let reach = quanta_of_spacings(CONTACT_RANGE);
     var walk = walk_around(place_of(own), i32(reach) + 4 + i32(now().travelled - control.sorted_at));
     while next_run(&walk) {
         let end = cell_start[walk.end_cell];

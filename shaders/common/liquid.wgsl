@@ -66,9 +66,8 @@ fn way_bits(way: Place) -> u32 {
     return bitcast<u32>(dot(Vector(way), Vector(way)));
 }
 
-// Within which solids touch, quanta: one spacing.
-fn touching_range() -> f32 {
-    return parameters.particle_spacing * constants.inverse_quantum;
+fn quanta_of_spacings(count: f32) -> f32 {
+    return count * parameters.particle_spacing * constants.inverse_quantum;
 }
 
 // weir_coordinate_of() of a place that is `away` metres from the origin.

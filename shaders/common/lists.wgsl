@@ -6,7 +6,9 @@ const NO_LIST = 0xffffffffu;
 // if it is so in one of them, so that their threads do the same.
 const MIXED_LIST = 0x80000000u;
 
-// Added to the number of entries of a free body's particle that another solid may touch while the list is in use.
+// Particles of two solids touch within one spacing (common/contact.wgsl). Added to the number of entries of a free body's particle
+// that another solid may touch while the list is in use.
+const CONTACT_RANGE = 1.0; // spacings
 const MEETS_SOLID = 0x40000000u;
 
 // How many entries, of that word.

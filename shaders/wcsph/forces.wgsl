@@ -472,7 +472,7 @@ fn slot_of(item: u32) -> u32 {
     return item;
 }
 
-// A lone thread's particle is on its way while the clock moves on.
+// A lone thread's particle and the head of its list are on their way while the clock moves on.
 const EARLY = LANES == 1u && !FORCES_READ;
 
 struct Taken {

@@ -88,7 +88,7 @@ fn make_list(i: u32, own: vec4i, start: u32, groups: ptr<function, u32>) -> vec4
     var count = 0u;
     var header = vec4u(0u);
     var fits = true;
-    let touching = touching_range() + 2.0 * f32(allowance) + 8.0;
+    let touching = quanta_of_spacings(CONTACT_RANGE) + 2.0 * f32(allowance) + 8.0;
     var meets = false;
     if WRAPS {
         header = first_candidates(place_of(own), i32(reach + strayed()));

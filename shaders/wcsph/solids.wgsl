@@ -7,8 +7,8 @@
 @group(0) @binding(BINDING_blocks) var<storage, read> blocks: array<vec4u>;
 @group(0) @binding(BINDING_control) var<storage, read_write> control: Control;
 
-var<workgroup> acceleration_most: atomic<u32>; // squares, as bits: acceleration of free bodies,
-var<workgroup> finish2_most: atomic<u32>;      // and ways
+var<workgroup> acceleration2_most: atomic<u32>; // squares, as bits: acceleration of free bodies,
+var<workgroup> finish2_most: atomic<u32>;       // and ways
 var<workgroup> drift2_most: atomic<u32>;
 
 fn kicked_solid(n: u32) -> SolidState {
@@ -33,7 +33,7 @@ fn kicked_solid(n: u32) -> SolidState {
     state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.clock.dt);
     let square = dot(state.acceleration.xyz, state.acceleration.xyz);
     if is_finite(square) {
-        atomicMax(&acceleration_most, bitcast<u32>(square));
+        atomicMax(&acceleration2_most, bitcast<u32>(square));
     }
     return state;
 }
@@ -41,7 +41,7 @@ fn kicked_solid(n: u32) -> SolidState {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn solids(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
-        atomicStore(&acceleration_most, 0u);
+        atomicStore(&acceleration2_most, 0u);
         atomicStore(&finish2_most, 0u);
         atomicStore(&drift2_most, 0u);
     }
@@ -65,7 +65,7 @@ fn solids(@builtin(local_invocation_index) local: u32) {
     workgroupBarrier();
     if local == 0u && control.clock.stepping == 1u {
         let step = &control.maxima[control.clock.noting];
-        (*step).acceleration2_bits = max((*step).acceleration2_bits, atomicLoad(&acceleration_most));
+        (*step).acceleration2_bits = max((*step).acceleration2_bits, atomicLoad(&acceleration2_most));
         (*step).finish2_bits = max((*step).finish2_bits, atomicLoad(&finish2_most));
         (*step).drift2_bits = max((*step).drift2_bits, atomicLoad(&drift2_most));
     }
