@@ -155,9 +155,9 @@ static void make_coordinates(WeirConstants *constants, const WeirScene *scene, d
 
 int32_t weir_coordinate_of(const WeirConstants *constants, double place, uint32_t axis)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     double away = rint((place - (double)constants->origin[axis]) / (double)constants->quantum);
-    if (periods[axis] > 0) away -= periods[axis] * floor(away / periods[axis]);
+    uint32_t period = weir_period(constants, axis);
+    if (period > 0) away -= period * floor(away / period);
     return (int32_t)fmin(fmax(away, -2e9), 2e9); // NaN too
 }
 

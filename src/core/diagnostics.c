@@ -1,4 +1,5 @@
 #include "core/diagnostics.h"
+#include "core/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -144,13 +145,12 @@ static uint64_t neighbors_of(const CellTable *table, const WeirState *state, uin
 
 static void start_table(CellTable *table, const WeirParameters *parameters, const WeirConstants *constants)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     table->dimension = constants->dimension;
     table->radius = parameters->support_radius;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
         table->origin[axis] = constants->domain_min[axis];
         table->cell[axis] = table->radius * 1.0001; // rounding loses no neighbour
-        if (!periods[axis]) continue;
+        if (!weir_period(constants, axis)) continue;
         table->period[axis] = (double)constants->domain_max[axis] - constants->domain_min[axis];
         table->periods[axis] = (int64_t)fmax(1.0, floor(table->period[axis] / table->cell[axis]));
         table->cell[axis] = table->period[axis] / (double)table->periods[axis];

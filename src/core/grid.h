@@ -17,6 +17,12 @@ enum { WEIR_CELLS_PER_RADIUS = 4 };
 void weir_constants_make(WeirConstants *constants, const WeirScene *scene, const WeirParameters *parameters,
                          uint32_t particle_count, const WeirTool *tool);
 
+// Period along an axis, quanta; 0: it is not periodic.
+static inline uint32_t weir_period(const WeirConstants *constants, uint32_t axis)
+{
+    return axis == 0 ? constants->period_x : axis == 1 ? constants->period_y : constants->period_z;
+}
+
 // `wcsph`: a place in metres as whole quanta from `origin`; along a periodic axis that of its image in the domain, along others cut at
 // 2e9, farther than the domain reaches.
 int32_t weir_coordinate_of(const WeirConstants *constants, double place, uint32_t axis);

@@ -1,4 +1,5 @@
 #include "core/probe.h"
+#include "core/grid.h"
 #include "core/smoothing.h"
 
 #include <math.h>
@@ -24,7 +25,6 @@ typedef struct Field {
 static Field make_field(const WeirState *state, const WeirParameters *parameters,
                         const WeirConstants *constants)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     Field field = {
         .state = state,
         .count = constants->first_solid && constants->first_solid < state->count ? constants->first_solid
@@ -35,7 +35,7 @@ static Field make_field(const WeirState *state, const WeirParameters *parameters
         .mass = constants->particle_mass,
     };
     for (uint32_t axis = 0; axis < state->dimension; ++axis) {
-        if (periods[axis])
+        if (weir_period(constants, axis))
             field.period[axis] = (double)constants->domain_max[axis] - constants->domain_min[axis];
     }
     return field;

@@ -1,5 +1,6 @@
 #include "core/solids.h"
 #include "core/exact_math.h"
+#include "core/grid.h"
 
 #include <float.h>
 #include <math.h>
@@ -305,12 +306,11 @@ void weir_solids_kick(const WeirWorld *world, const float gravity[4], double tim
 // would be shorter for it, until no coordinate could tell where it is.
 static bool has_left(const WeirConstants *constants, const WeirSolidState *state)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float longest = 0.0f, outside = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
         float low = constants->domain_min[axis], high = constants->domain_max[axis];
         longest = fmaxf(longest, high - low);
-        if (periods[axis] == 0)
+        if (weir_period(constants, axis) == 0)
             outside = fmaxf(outside, fmaxf(low - state->position[axis], state->position[axis] - high));
     }
     return outside > 0.5f * longest;

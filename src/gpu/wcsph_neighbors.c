@@ -1,4 +1,5 @@
 // How `wcsph` on the GPU finds neighbours: lists with a skin or walks over cells, and how often particles are sorted.
+#include "core/grid.h"
 #include "gpu/wcsph.h"
 
 #include <math.h>
@@ -35,10 +36,11 @@ static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimen
 // Whether a periodic axis is so short that a list could hold a particle twice.
 static bool is_short(const WeirConstants *constants, double reach)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     double support = (double)(1u << constants->coordinate_bits);
-    for (int axis = 0; axis < 3; ++axis)
-        if (periods[axis] > 0 && (double)periods[axis] < 2.0 * (reach + 0.1) * support) return true;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+        uint32_t period = weir_period(constants, axis);
+        if (period > 0 && (double)period < 2.0 * (reach + 0.1) * support) return true;
+    }
     return false;
 }
 

@@ -1,5 +1,6 @@
 // From the device to the host: the clock and the particles' health while steps run, sums over the fluid, and the whole state
 // by id.
+#include "core/grid.h"
 #include "core/solids.h"
 #include "gpu/sums.h"
 #include "gpu/wcsph.h"
@@ -178,10 +179,10 @@ static double wrapped(int32_t place, uint32_t period)
 
 void weir_gpu_wcsph_position(const WeirConstants *constants, const int32_t *place, float *position)
 {
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     for (uint32_t axis = 0; axis < constants->dimension; ++axis)
-        position[axis] = (float)((double)constants->origin[axis] +
-                                 wrapped(place[axis], periods[axis]) * (double)constants->quantum);
+        position[axis] =
+            (float)((double)constants->origin[axis] +
+                    wrapped(place[axis], weir_period(constants, axis)) * (double)constants->quantum);
 }
 
 static WeirState order_motion(WeirWcsphGpu *solver, const View *view)

@@ -3,6 +3,7 @@
 // WEIR_LANES particles at a time, which share no sums; what happens to few (seal, drains, nozzles) one by one.
 #include "core/cpu/simd.h"
 #include "core/cpu/wcsph.h"
+#include "core/grid.h"
 
 #include <math.h>
 
@@ -112,14 +113,13 @@ static void drift_chunk(void *context, uint32_t begin, uint32_t end)
     WeirWcsph *solver = drift->solver;
     WeirWcsphParticles *state = &solver->state;
     const WeirConstants *constants = &solver->constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     float half = 0.5f * solver->dt;
     for (uint32_t i = begin; i < end; i += WEIR_LANES) {
         WeirMask fluid = fluid_lanes(state->group, i, end), x[3];
         for (uint32_t axis = 0; axis < constants->dimension; ++axis) {
             WeirMask from = weir_mask_load(state->x[axis] + i);
             WeirLanes way = half * weir_lanes_load(state->velocity[axis] + i);
-            x[axis] = moved(constants, from, way, periods[axis]);
+            x[axis] = moved(constants, from, way, weir_period(constants, axis));
             weir_mask_store(state->x[axis] + i, select_places(fluid, x[axis], from));
         }
         WeirLanes excess = weir_lanes_load(state->excess + i);
@@ -248,7 +248,6 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
     WeirWcsph *solver = context;
     const WeirWcsphData *data = &solver->data;
     const WeirConstants *constants = &solver->constants;
-    const uint32_t periods[3] = {constants->period_x, constants->period_y, constants->period_z};
     WeirWcsphParticles *to = &solver->sorted;
     const float limit = constants->speed_limit * constants->speed_limit;
     float dt = solver->dt, half = 0.5f * dt, rest_density = solver->parameters.rest_density;
@@ -265,8 +264,8 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
             WeirLanes v = weir_lanes_load(data->new_velocity[axis] + i);
             WeirLanes shift = dt * weir_lanes_load(data->shift[axis] + i);
             WeirMask from = weir_mask_load(to->x[axis] + i);
-            WeirMask x =
-                moved(constants, from, half * v + (WeirLanes)((WeirMask)shift & free), periods[axis]);
+            WeirMask x = moved(constants, from, half * v + (WeirLanes)((WeirMask)shift & free),
+                               weir_period(constants, axis));
             seal(constants, axis, free, &x, &v);
             weir_mask_store(to->x[axis] + i, select_places(fluid, x, from));
             weir_lanes_store(to->velocity[axis] + i,
