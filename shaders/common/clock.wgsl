@@ -95,7 +95,7 @@ fn judge_order(clock: ptr<function, Clock>, last: Maxima) {
     let until_next = f32(LIST_INTERVAL) * next_way;
     let moved = f32((*clock).travelled - control.listed_at);
     (*clock).stale = select(0u, 1u, moved + until_next > f32(control.allowance));
-    let allowance = clamp(2.0 * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE);
+    let allowance = clamp(f32(LIST_LIFE) * until_next, LEAST_ALLOWANCE, MOST_ALLOWANCE);
     (*clock).next_allowance = u32(allowance);
     let stray = f32((*clock).travelled - control.sorted_at) + f32(SORT_INTERVAL - LIST_INTERVAL + 2u) * next_way;
     (*clock).worn = select(0u, 1u, stray + 2.0 * allowance > MOST_STRAY);

@@ -17,6 +17,9 @@ static const double most_parts = 4096.0;
 // they have room for what the longest allowance leaves.
 static const double most_stray = 0.6;
 static const uint32_t lists_per_sort = 4; // chances
+// For how many chances lists are made. Short ones in 3D, where making them costs most beside their use, are for more.
+static const uint32_t list_life = 2, short_list_life = 3;
+static const double short_list_neighbors = 60.0;
 // A pass takes 4 us even if there is nothing to do: below so many pairs lists and sorts are offered every few steps only.
 static const double pairs_for_every_step = 2e7;
 // Particles whose lists lie side by side, `PART_STRIDE` in common/lists.wgsl.
@@ -137,6 +140,8 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     traits->share_threads = share_threads_for(constants->dimension, traits->lanes);
     bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->list_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
+    traits->list_life =
+        constants->dimension == 3 && neighbors <= short_list_neighbors ? short_list_life : list_life;
     double least = least_allowance, most = every ? most_allowance : seldom_allowance;
     traits->list_parts = parts_of_lists(parameters, constants, most);
     bool lists = traits->list_parts > 0 && share_lists(traits, constants, gpu, most_list_bytes);

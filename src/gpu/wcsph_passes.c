@@ -276,6 +276,7 @@ uint32_t weir_gpu_wcsph_settings(const WeirParameters *parameters, const WeirCon
     NUMBER("ROW_HEIGHT", traits->row_height);
     NUMBER("LAYER_HEIGHT", traits->layer_height);
     NUMBER("LIST_INTERVAL", traits->list_interval);
+    NUMBER("LIST_LIFE", traits->list_life);
     NUMBER("SORT_INTERVAL", traits->sort_interval);
     NUMBER("SORT_SIZES", (uint32_t)WEIR_SORT_SIZES);
     NUMBER("SORT_LISTS", (uint32_t)WEIR_SORT_LISTS);
