@@ -105,9 +105,9 @@ typedef struct WeirWcsphTraits {
     float fastest_surface;               // largest surface_velocity of a solid, m/s
     // How neighbours are found (wcsph_neighbors.c).
     uint32_t list_interval;     // steps; lists may be made anew before those whose number it divides,
-    uint32_t list_life;         // such chances that lists are to last for, at the pace of the step before;
     uint32_t sort_interval;     // and particles sorted: a multiple of it;
     uint32_t emission_interval; // and emitters act: a multiple of that, weir_world_emission_interval()
+    uint32_t list_life;         // chances that lists are made to last for, at the pace of the step before
     uint32_t lanes;             // threads that share a particle's neighbours: 1, 2, 4, 8
     uint32_t share_threads;     // of a workgroup of pass forces
     uint32_t list_parts;        // of 8 neighbours, per particle; 0: no lists
