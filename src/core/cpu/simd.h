@@ -30,8 +30,8 @@ enum { WEIR_LANES = 4 };
 typedef float WeirLanes __attribute__((vector_size(4 * WEIR_LANES)));
 typedef int32_t WeirMask __attribute__((vector_size(4 * WEIR_LANES)));
 
-// Beside these: weir_lanes_sqrt, weir_lanes_max (and weir_lanes_min) and weir_lanes_any_below (a < b in at least one lane), per target;
-// weir_lanes_store_where stores the lanes whose mask is set.
+// Beside these, per target: weir_lanes_sqrt, weir_lanes_max, weir_lanes_min, weir_mask_any (is a lane set?) and weir_lanes_any_below
+// (a < b in at least one lane). weir_lanes_store_where stores the lanes whose mask is set.
 static inline WeirLanes weir_lanes_load(const float *values)
 {
     WeirLanes lanes;
@@ -82,13 +82,6 @@ static inline WeirLanes weir_lanes_round(WeirLanes a)
     return (WeirLanes)((((WeirMask)rounded & fraction) | ((WeirMask)size & ~fraction)) | sign);
 }
 
-static inline bool weir_mask_any(WeirMask mask)
-{
-    int32_t any = 0;
-    for (int lane = 0; lane < WEIR_LANES; ++lane) any |= mask[lane];
-    return any != 0;
-}
-
 // a where the mask is set, b elsewhere.
 static inline WeirLanes weir_lanes_select(WeirMask mask, WeirLanes a, WeirLanes b)
 {
@@ -104,6 +97,14 @@ static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm512_max_ps((__m512)a, (__m512)b);
+}
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm512_min_ps((__m512)a, (__m512)b);
+}
+static inline bool weir_mask_any(WeirMask mask)
+{
+    return _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask) != 0;
 }
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
@@ -124,9 +125,21 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm256_max_ps((__m256)a, (__m256)b);
 }
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm256_min_ps((__m256)a, (__m256)b);
+}
+static inline bool weir_mask_any(WeirMask mask)
+{
+    return !_mm256_testz_si256((__m256i)mask, (__m256i)mask);
+}
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
     return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)) != 0;
+}
+static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
+{
+    _mm256_maskstore_ps(values, (__m256i)mask, (__m256)a);
 }
 #elif defined(__SSE2__)
 #include <emmintrin.h>
@@ -137,6 +150,14 @@ static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm_max_ps((__m128)a, (__m128)b);
+}
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)_mm_min_ps((__m128)a, (__m128)b);
+}
+static inline bool weir_mask_any(WeirMask mask)
+{
+    return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)mask, _mm_setzero_si128())) != 0xFFFF;
 }
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
@@ -151,6 +172,14 @@ static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    return (WeirLanes)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
+}
+static inline bool weir_mask_any(WeirMask mask)
+{
+    return wasm_v128_any_true((v128_t)mask);
 }
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
@@ -169,23 +198,37 @@ static inline WeirLanes weir_lanes_max(WeirLanes a, WeirLanes b)
     WeirMask greater = (WeirMask)(a > b);
     return (WeirLanes)((greater & (WeirMask)a) | (~greater & (WeirMask)b));
 }
+static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
+{
+    WeirMask less = (WeirMask)(a < b);
+    return (WeirLanes)((less & (WeirMask)a) | (~less & (WeirMask)b));
+}
+static inline bool weir_mask_any(WeirMask mask)
+{
+    int32_t any = 0;
+    for (int lane = 0; lane < WEIR_LANES; ++lane) any |= mask[lane];
+    return any != 0;
+}
 static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
 {
-    WeirMask below = (WeirMask)(a < b);
-    int32_t any = 0;
-    for (int lane = 0; lane < WEIR_LANES; ++lane) any |= below[lane];
-    return any != 0;
+    return weir_mask_any((WeirMask)(a < b));
 }
 #endif
 
-static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
-{
-    return -weir_lanes_max(-a, -b);
-}
-
-#if !defined(__AVX512F__)
+// Lanes whose mask is not set may be another thread's: they are not even written back. (wasm has one thread. Lane by lane,
+// compilers work `a` out once per lane, in the branches.)
+#if defined(__wasm_simd128__)
 static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
 {
+    weir_lanes_store(values, weir_lanes_select(mask, a, weir_lanes_load(values)));
+}
+#elif !defined(__AVX2__)
+static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
+{
+    if (!weir_mask_any(~mask)) {
+        weir_lanes_store(values, a);
+        return;
+    }
     for (int lane = 0; lane < WEIR_LANES; ++lane) {
         if (mask[lane]) values[lane] = a[lane];
     }

@@ -55,6 +55,20 @@ INLINE WeirLanes dot(Vector a, Vector b, Variant variant)
     return variant.three_dimensional ? sum + a.z * b.z : sum;
 }
 
+INLINE Vector scaled(WeirLanes scale, Vector v, Variant variant)
+{
+    Vector product = {scale * v.x, scale * v.y, {0}};
+    if (variant.three_dimensional) product.z = scale * v.z;
+    return product;
+}
+
+INLINE void add(Vector *sum, Vector v, Variant variant)
+{
+    sum->x += v.x;
+    sum->y += v.y;
+    if (variant.three_dimensional) sum->z += v.z;
+}
+
 INLINE void add_scaled(Vector *sum, WeirLanes scale, Vector v, Variant variant)
 {
     sum->x += scale * v.x;
@@ -93,18 +107,20 @@ INLINE WeirLanes rest_to(float a, WeirLanes s)
     return weir_lanes_max(weir_lanes_fill(a) - s, zero);
 }
 
-// W / kernel_factor at s = r / R.
+// W / (shape_unit kernel_factor) at s = r / R: a quarter of Wendland's kernel takes one product less.
+static const float shape_unit = 4.0f;
+
 INLINE WeirLanes kernel_shape(WeirLanes s, Variant variant)
 {
     if (variant.kernel == WEIR_KERNEL_CUBIC) {
         WeirLanes q = s * 2.0f, far = rest_to(2.0f, q), near = rest_to(1.0f, q);
-        return far * far * far * 0.25f - near * near * near;
+        return (far * far * far * 0.25f - near * near * near) * 0.25f;
     }
     if (variant.kernel == WEIR_KERNEL_QUINTIC) {
         WeirLanes q = s * 3.0f, a = rest_to(3.0f, q), b = rest_to(2.0f, q), c = rest_to(1.0f, q);
-        return lanes_power4(a) * a - lanes_power4(b) * b * 6.0f + lanes_power4(c) * c * 15.0f;
+        return (lanes_power4(a) * a - lanes_power4(b) * b * 6.0f + lanes_power4(c) * c * 15.0f) * 0.25f;
     }
-    return lanes_power4(rest_to(1.0f, s)) * (s * 4.0f + 1.0f);
+    return lanes_power4(rest_to(1.0f, s)) * (s + 0.25f);
 }
 
 // F^ at s.
@@ -121,6 +137,14 @@ INLINE WeirLanes kernel_slope(WeirLanes s, Variant variant)
     }
     WeirLanes rest = rest_to(1.0f, s);
     return rest * rest * rest;
+}
+
+// F^ / rho_j at s; `weight`: (1 - s) / rho_j.
+INLINE WeirLanes weighted_slope(WeirLanes s, WeirLanes weight, WeirLanes inverse_density, Variant variant)
+{
+    if (variant.kernel != WEIR_KERNEL_WENDLAND) return kernel_slope(s, variant) * inverse_density;
+    WeirLanes rest = rest_to(1.0f, s);
+    return rest * rest * weight;
 }
 
 INLINE void load_place(const WeirWcsphData *data, uint32_t begin, const WeirRun *run, WeirMask place[3])
@@ -183,7 +207,7 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
         uint32_t i = begin + lane;
         if (data->is_fluid[i] != 0.0f) continue;
-        float total = weight[lane], inverse = total > 1e-12f ? 1.0f / total : 0.0f;
+        float total = shape_unit * weight[lane], inverse = total > 1e-12f ? shape_unit / total : 0.0f;
         float scale = inverse * data->constants->quantum;
         data->weight[i] = inverse > 0.0f ? total : 0.0f;
         data->pressure[i] = pressure[lane] * inverse;
@@ -219,22 +243,29 @@ static const float start_pace = 1000.0f; // before the first step: no bound
 typedef struct ForceSums {
     Vector pressure;      // sum p_j / rho_j F^ x
     Vector gradient;      // sum 1 / rho_j F^ x
-    Vector clustering;    // sum 1 / rho_j (W / kernel_factor)^4 F^ x
+    Vector clustering;    // sum 1 / rho_j kernel_shape^4 F^ x
     Vector viscous;       // sum 1 / rho_j F^ (v . x) / r^2 x, between fluid
     Vector laminar;       // sum 1 / rho_j F^ v, between fluid
     Vector friction;      // the same between fluid and no-slip solids
     Vector barrier;       // sum of barrier and brake along x / r, between fluid and solid
     WeirLanes surface;    // sum 1 / rho_j F^ r^2
-    WeirLanes filling;    // sum 1 / rho_j W^
+    WeirLanes filling;    // sum 1 / rho_j kernel_shape
     WeirLanes divergence; // sum 1 / rho_j F^ v . x where the particles are at the end of the step
     WeirLanes laplacian;  // sum 1 / rho_j (1 - s) (p_j - p_i), between fluid
     Vector moment;        // sum 1 / rho_j (1 - s) x, between fluid
 } ForceSums;
 
+// What the terms of a lane and candidate j share.
+typedef struct Pair {
+    Vector x, v;                       // x_i - x_j, quanta; v_i - v_j, m/s
+    WeirLanes r2, inverse_r2, s;       // r^2 and 1 / r^2, quanta; r / R
+    WeirLanes inverse_density, weight; // 1 / rho_j; (1 - s) / rho_j
+    WeirLanes approach;                // v . x
+} Pair;
+
 // What is the same for all candidates of a group.
 typedef struct ForceLanes {
     float inverse_support;
-    float second_half_in_supports;               // 3/2 of second_half, in supports
     float barrier_pace;                          // one spacing per step, over the speed of sound
     bool viscous, laminar, friction, clustering; // terms that are not switched off
     WeirLanes support2, stick, barrier, barrier_reach, pressure, inverse_density;
@@ -254,7 +285,6 @@ INLINE ForceLanes force_lanes(const WeirWcsphData *data, uint32_t begin, Variant
     float spacing = data->parameters->particle_spacing * constants->inverse_quantum;
     return (ForceLanes){
         .inverse_support = constants->inverse_support,
-        .second_half_in_supports = 1.5f * data->second_half * constants->inverse_support,
         .viscous = constants->viscosity_factor != 0.0f,
         .laminar = constants->laminar_factor != 0.0f,
         .friction = constants->friction_factor != 0.0f,
@@ -296,37 +326,38 @@ INLINE void add_barrier(const WeirWcsphData *data, const ForceLanes *own, uint32
 
 // F^ where the step ends; of Wendland's kernel, q^3 with q = 1 - s, to first order, which saves a root. `growth`: of r^2, over
 // second_half.
-INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, WeirLanes r2,
-                              WeirLanes inverse_r, WeirLanes s, WeirLanes growth, Variant variant)
+INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, const Pair *pair,
+                              WeirLanes growth, Variant variant)
 {
     const WeirLanes zero = {0};
     if (variant.kernel == WEIR_KERNEL_CUBIC || variant.kernel == WEIR_KERNEL_QUINTIC) {
-        WeirLanes end2 = weir_lanes_max(r2 + data->second_half * growth, zero);
+        WeirLanes end2 = weir_lanes_max(pair->r2 + data->second_half * growth, zero);
         WeirLanes slope = kernel_slope(weir_lanes_sqrt(end2) * own->inverse_support, variant);
-        return weir_lanes_select((WeirMask)(r2 < own->support2), slope, zero);
+        return weir_lanes_select((WeirMask)(pair->r2 < own->support2), slope, zero);
     }
-    WeirLanes q = rest_to(1.0f, s), end = q - own->second_half_in_supports * inverse_r * growth;
+    WeirLanes q = rest_to(1.0f, pair->s);
+    WeirLanes end = q - 1.5f * data->second_half * (pair->s * pair->inverse_r2) * growth;
     return q * q * weir_lanes_min(weir_lanes_max(end, zero), weir_lanes_fill(1.0f));
 }
 
 // What candidate j does to the density, over those within the support in the middle of the step: the rate belongs to the
-// places at the step's end, between two densities. `v`, `approach`: the velocity to it, if it is fluid, and v . x.
-INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
-                      WeirLanes inverse_r, WeirLanes s, WeirLanes inverse_density, Vector v,
-                      WeirLanes approach, Variant variant, ForceSums *sums)
+// places at the step's end, between two densities.
+INLINE void add_rates(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, const Pair *pair,
+                      Variant variant, ForceSums *sums)
 {
     bool fluid = data->is_fluid[j] != 0.0f;
+    Vector v = pair->v;
+    WeirLanes approach = pair->approach;
     if (!fluid) {
         v = less(own->velocity, (const float *const *)data->new_velocity, j, variant);
-        approach = dot(v, x, variant);
+        approach = dot(v, pair->x, variant);
     }
     WeirLanes end_approach = approach + data->second_half * dot(v, v, variant);
-    WeirLanes slope = slope_at_end(data, own, r2, inverse_r, s, approach + end_approach, variant);
-    sums->divergence += slope * inverse_density * end_approach;
+    WeirLanes slope = slope_at_end(data, own, pair, approach + end_approach, variant);
+    sums->divergence += slope * pair->inverse_density * end_approach;
     if (!fluid) return;
-    WeirLanes weight = rest_to(1.0f, s) * inverse_density;
-    sums->laplacian += weight * (data->pressure[j] - own->pressure);
-    add_scaled(&sums->moment, weight, x, variant);
+    sums->laplacian += pair->weight * (data->pressure[j] - own->pressure);
+    add_scaled(&sums->moment, pair->weight, pair->x, variant);
 }
 
 // A solid that stays where it is, as one fluid particle sees it at `offset` = fluid - solid: that particle's pressure and the weight
@@ -353,7 +384,7 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
                        Variant variant, bool solids, ForceSums *sums)
 {
     r2 += 1.0f; // quantum, so that it can be divided by
-    WeirLanes r = weir_lanes_sqrt(r2), inverse_r = 1.0f / r, s = r * own->inverse_support;
+    WeirLanes r = weir_lanes_sqrt(r2), inverse_r2 = 1.0f / r2, s = r * own->inverse_support;
     WeirLanes pressure = weir_lanes_fill(data->pressure[j]),
               inverse_density = weir_lanes_fill(data->inverse_density[j]);
     if (data->walls_by_pair && solids) {
@@ -367,13 +398,15 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
         pressure = wall.pressure;
         inverse_density = wall.inverse_density;
     }
-    WeirLanes slope = kernel_slope(s, variant) * inverse_density;
+    WeirLanes weight = rest_to(1.0f, s) * inverse_density;
+    WeirLanes slope = weighted_slope(s, weight, inverse_density, variant);
     Vector v = less(own->seen_velocity, (const float *const *)data->seen_velocity, j, variant);
+    Vector slant = scaled(slope, x, variant);
     WeirLanes approach = dot(v, x, variant);
-    add_scaled(&sums->pressure, slope * pressure, x, variant);
-    add_scaled(&sums->gradient, slope, x, variant);
+    add_scaled(&sums->pressure, pressure, slant, variant);
+    add(&sums->gradient, slant, variant);
     if (data->is_fluid[j] != 0.0f && !solids) {
-        if (own->viscous) add_scaled(&sums->viscous, slope * approach * (inverse_r * inverse_r), x, variant);
+        if (own->viscous) add_scaled(&sums->viscous, approach * inverse_r2, slant, variant);
         if (own->laminar) add_scaled(&sums->laminar, slope, v, variant);
     } else {
         if (own->friction) add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
@@ -383,8 +416,9 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     sums->filling += shape * inverse_density;
     if (solids) return;
     sums->surface += slope * r2;
-    if (own->clustering) add_scaled(&sums->clustering, slope * lanes_power4(shape), x, variant);
-    add_rates(data, own, j, x, r2, inverse_r, s, inverse_density, v, approach, variant, sums);
+    if (own->clustering) add_scaled(&sums->clustering, lanes_power4(shape), slant, variant);
+    Pair pair = {x, v, r2, inverse_r2, s, inverse_density, weight, approach};
+    add_rates(data, own, j, &pair, variant, sums);
 }
 
 INLINE ForceSums sum_forces(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
@@ -492,12 +526,12 @@ INLINE Vector shift_of(const WeirWcsphData *data, const ForceSums *sums, WeirMas
     float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
     float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->flow_speed *
                    constants->particle_mass * constants->gradient_factor * constants->quantum;
+    const float clustering = shape_unit * shape_unit * shape_unit * shape_unit * constants->clustering_factor;
     const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
     Vector shift = {{0}, {0}, {0}};
     WeirLanes *u = &shift.x;
     for (int axis = 0; axis < 3; ++axis)
-        u[axis] =
-            weir_lanes_select(inside, factor * (g[axis] + constants->clustering_factor * c[axis]), zero);
+        u[axis] = weir_lanes_select(inside, factor * (g[axis] + clustering * c[axis]), zero);
     WeirLanes length = weir_lanes_sqrt(dot(shift, shift, variant));
     WeirLanes scale = weir_lanes_select((WeirMask)(length > most), most / length, weir_lanes_fill(1.0f));
     for (int axis = 0; axis < 3; ++axis) u[axis] *= scale;
@@ -512,7 +546,7 @@ INLINE WeirLanes shift_rate_of(const WeirWcsphData *data, const ForceSums *sums,
     const WeirConstants *constants = data->constants;
     const WeirLanes zero = {0};
     float acoustic = constants->acoustic_rate, bulk = (float)constants->dimension;
-    WeirLanes filling = constants->particle_mass * constants->kernel_factor * sums->filling;
+    WeirLanes filling = constants->particle_mass * (shape_unit * constants->kernel_factor) * sums->filling;
     WeirLanes volume = (filling - constants->lattice_filling) * (acoustic / volume_time);
     WeirLanes full = filling * (full_support * bulk / constants->lattice_filling);
     rate = weir_lanes_select((WeirMask)(surface >= full), rate + volume, rate);
@@ -585,7 +619,7 @@ INLINE void forces_group(const WeirWcsphData *data, const WeirLaneGroup *group, 
         add_viscous_forces(data, &sums, begin, (WeirMask){0}, variant, &acceleration);
         WeirMask takes = chosen(data->needs_force, begin, group->lanes);
         store_where(data->acceleration, begin, acceleration, takes);
-        float scale = data->constants->particle_mass * data->constants->kernel_factor;
+        float scale = data->constants->particle_mass * (shape_unit * data->constants->kernel_factor);
         weir_lanes_store_where(data->wetted + begin, scale * sums.filling, takes);
     }
 }
