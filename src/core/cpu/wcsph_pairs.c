@@ -239,11 +239,14 @@ static const float barrier_range = 0.85f, barrier_strength = 4.0f;
 static const float brake_range = 2.0f, brake_strength = 2.4f, brake_limit = 0.1f, barrier_share = 0.5f;
 static const float start_pace = 1000.0f; // before the first step: no bound
 
+// Without it fourth powers of kernels are denormal near the edge of the support, on which processors are slow.
+static const float clustering_unit = 1048576.0f;
+
 // The sums of `forces`, without their factors.
 typedef struct ForceSums {
     Vector pressure;      // sum p_j / rho_j F^ x
     Vector gradient;      // sum 1 / rho_j F^ x
-    Vector clustering;    // sum 1 / rho_j kernel_shape^4 F^ x
+    Vector clustering;    // sum 1 / rho_j (clustering_unit kernel_shape)^4 F^ x
     Vector viscous;       // sum 1 / rho_j F^ (v . x) / r^2 x, between fluid
     Vector laminar;       // sum 1 / rho_j F^ v, between fluid
     Vector friction;      // the same between fluid and no-slip solids
@@ -416,7 +419,7 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     sums->filling += shape * inverse_density;
     if (solids) return;
     sums->surface += slope * r2;
-    if (own->clustering) add_scaled(&sums->clustering, lanes_power4(shape), slant, variant);
+    if (own->clustering) add_scaled(&sums->clustering, lanes_power4(shape * clustering_unit), slant, variant);
     Pair pair = {x, v, r2, inverse_r2, s, inverse_density, weight, approach};
     add_rates(data, own, j, &pair, variant, sums);
 }
@@ -526,7 +529,8 @@ INLINE Vector shift_of(const WeirWcsphData *data, const ForceSums *sums, WeirMas
     float gradient = constants->particle_mass * constants->gradient_factor * constants->quantum;
     float factor = -data->parameters->shifting * 4.0f * constants->smoothing_length * data->flow_speed *
                    constants->particle_mass * constants->gradient_factor * constants->quantum;
-    const float clustering = shape_unit * shape_unit * shape_unit * shape_unit * constants->clustering_factor;
+    const float unit = shape_unit / clustering_unit,
+                clustering = unit * unit * unit * unit * constants->clustering_factor;
     const WeirLanes *g = &sums->gradient.x, *c = &sums->clustering.x;
     Vector shift = {{0}, {0}, {0}};
     WeirLanes *u = &shift.x;
