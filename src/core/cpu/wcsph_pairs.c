@@ -176,47 +176,81 @@ INLINE WeirMask chosen(const float *flag, uint32_t begin, uint32_t lanes)
     return (WeirMask)(weir_lanes_load(flag + begin) != (WeirLanes){0}) & weir_mask_first(lanes);
 }
 
+// Is candidate j within the support of any lane? Else it would add 0 to all of them.
+INLINE bool is_seen(const WeirWcsphData *data, WeirLanes support2, const WeirMask place[3], uint32_t j,
+                    Variant variant)
+{
+    Vector x = offset_to(data, place, j, variant);
+    return weir_lanes_any_below(dot(x, x, variant), support2);
+}
+
+enum { MOST_SEEN = 64 };
+
+// Notes who is seen of the next MOST_SEEN candidates, or `end`. Without a branch: where half of them are, as in 3D, no processor
+// guesses which in disordered fluid. Returns how many.
+INLINE uint32_t note_seen(const WeirWcsphData *data, WeirLanes support2, const WeirMask place[3],
+                          uint32_t begin, uint32_t end, bool fluid_alone, Variant variant,
+                          uint32_t seen[MOST_SEEN])
+{
+    uint32_t count = 0;
+    if (end - begin > MOST_SEEN) end = begin + MOST_SEEN;
+    for (uint32_t j = begin; j < end; ++j) {
+        seen[count] = j;
+        count += is_seen(data, support2, place, j, variant) & (!fluid_alone | (data->is_fluid[j] != 0.0f));
+    }
+    return count;
+}
+
 // ---- walls: what solid particles see of the fluid (Adami, Hu, Adams 2012) ----
+
+typedef struct WallSums {
+    WeirLanes weight, pressure; // sum of W, of W p
+    Vector mean, moment;        // sum of W v, of W rho x
+} WallSums;
+
+// What candidate j, fluid, adds.
+INLINE void add_seen(const WeirWcsphData *data, const WeirMask place[3], uint32_t j, Variant variant,
+                     WallSums *sums)
+{
+    Vector x = offset_to(data, place, j, variant);
+    WeirLanes r2 = dot(x, x, variant);
+    WeirLanes w = kernel_shape(weir_lanes_sqrt(r2) * data->constants->inverse_support, variant);
+    sums->weight += w;
+    sums->pressure += w * data->pressure[j];
+    sums->mean.x += w * data->velocity[0][j];
+    sums->mean.y += w * data->velocity[1][j];
+    if (variant.three_dimensional) sums->mean.z += w * data->velocity[2][j];
+    add_scaled(&sums->moment, w * (data->excess[j] + data->parameters->rest_density), x, variant);
+}
 
 INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
                         Variant variant)
 {
     const WeirConstants *constants = data->constants;
-    float inverse_support = constants->inverse_support;
-    WeirLanes support2 = weir_lanes_fill(1.0f / (inverse_support * inverse_support));
-    float rest_density = data->parameters->rest_density;
-    WeirLanes weight = {0}, pressure = {0};
-    Vector mean = {{0}, {0}, {0}}, moment = {{0}, {0}, {0}};
+    WeirLanes support2 = weir_lanes_fill(1.0f / (constants->inverse_support * constants->inverse_support));
+    WallSums sums = {0};
     for (uint32_t n = 0; n < group->run_count; ++n) {
         WeirMask place[3];
         load_place(data, begin, &group->run[n], place);
-        for (uint32_t j = group->run[n].begin; j < group->run[n].end; ++j) {
-            if (data->is_fluid[j] == 0.0f) continue;
-            Vector x = offset_to(data, place, j, variant);
-            WeirLanes r2 = dot(x, x, variant);
-            if (!weir_lanes_any_below(r2, support2)) continue;
-            WeirLanes w = kernel_shape(weir_lanes_sqrt(r2) * inverse_support, variant);
-            weight += w;
-            pressure += w * data->pressure[j];
-            mean.x += w * data->velocity[0][j];
-            mean.y += w * data->velocity[1][j];
-            if (variant.three_dimensional) mean.z += w * data->velocity[2][j];
-            add_scaled(&moment, w * (data->excess[j] + rest_density), x, variant);
+        for (uint32_t first = group->run[n].begin; first < group->run[n].end; first += MOST_SEEN) {
+            uint32_t seen[MOST_SEEN];
+            uint32_t count = note_seen(data, support2, place, first, group->run[n].end, true, variant, seen);
+            for (uint32_t k = 0; k < count; ++k) add_seen(data, place, seen[k], variant, &sums);
         }
     }
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
         uint32_t i = begin + lane;
         if (data->is_fluid[i] != 0.0f) continue;
-        float total = shape_unit * weight[lane], inverse = total > 1e-12f ? shape_unit / total : 0.0f;
+        float total = shape_unit * sums.weight[lane], inverse = total > 1e-12f ? shape_unit / total : 0.0f;
         float scale = inverse * data->constants->quantum;
         data->weight[i] = inverse > 0.0f ? total : 0.0f;
-        data->pressure[i] = pressure[lane] * inverse;
-        data->seen_velocity[0][i] = mean.x[lane] * inverse;
-        data->seen_velocity[1][i] = mean.y[lane] * inverse;
-        data->seen_velocity[2][i] = mean.z[lane] * inverse;
-        data->extrapolated[0][i] = moment.x[lane] * scale;
-        data->extrapolated[1][i] = moment.y[lane] * scale;
-        data->extrapolated[2][i] = moment.z[lane] * scale;
+        data->pressure[i] = sums.pressure[lane] * inverse;
+        data->seen_velocity[0][i] = sums.mean.x[lane] * inverse;
+        data->seen_velocity[1][i] = sums.mean.y[lane] * inverse;
+        data->seen_velocity[2][i] = sums.mean.z[lane] * inverse;
+        data->extrapolated[0][i] = sums.moment.x[lane] * scale;
+        data->extrapolated[1][i] = sums.moment.y[lane] * scale;
+        data->extrapolated[2][i] = sums.moment.z[lane] * scale;
     }
 }
 
@@ -424,41 +458,28 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     add_rates(data, own, j, &pair, variant, sums);
 }
 
-// Is candidate j within the support of any lane? Else it would add 0 to all of them.
-INLINE bool is_seen(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3], uint32_t j,
-                    Variant variant)
-{
-    Vector x = offset_to(data, place, j, variant);
-    return weir_lanes_any_below(dot(x, x, variant), own->support2);
-}
-
 INLINE void add_candidate(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3],
                           uint32_t j, Variant variant, bool solids, ForceSums *sums)
 {
-    if (solids && data->is_fluid[j] == 0.0f) return;
     Vector x = offset_to(data, place, j, variant);
     add_forces(data, own, j, x, dot(x, x, variant), variant, solids, sums);
 }
 
-// In 3D only half of the candidates are seen, and in disordered fluid no processor guesses which: they are noted first, without a
-// branch. In 2D it is four of five.
+// In 2D four of five candidates are seen: a branch costs less than a note.
 INLINE void add_run(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3],
                     const WeirRun *run, Variant variant, bool solids, ForceSums *sums)
 {
-    enum { MOST_SEEN = 64 };
     if (!variant.three_dimensional) {
-        for (uint32_t j = run->begin; j < run->end; ++j)
-            if (is_seen(data, own, place, j, variant))
+        for (uint32_t j = run->begin; j < run->end; ++j) {
+            if (solids && data->is_fluid[j] == 0.0f) continue;
+            if (is_seen(data, own->support2, place, j, variant))
                 add_candidate(data, own, place, j, variant, solids, sums);
+        }
         return;
     }
     for (uint32_t begin = run->begin; begin < run->end; begin += MOST_SEEN) {
-        uint32_t seen[MOST_SEEN], count = 0;
-        uint32_t end = run->end - begin < MOST_SEEN ? run->end : begin + MOST_SEEN;
-        for (uint32_t j = begin; j < end; ++j) {
-            seen[count] = j;
-            count += is_seen(data, own, place, j, variant);
-        }
+        uint32_t seen[MOST_SEEN];
+        uint32_t count = note_seen(data, own->support2, place, begin, run->end, solids, variant, seen);
         for (uint32_t n = 0; n < count; ++n) add_candidate(data, own, place, seen[n], variant, solids, sums);
     }
 }
