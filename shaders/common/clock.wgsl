@@ -52,10 +52,7 @@ fn limit_step(clock: ptr<function, Clock>, last: Maxima) {
     if error > VIOLENT_ERROR {
         dt *= max(sqrt(VIOLENT_ERROR / error), 0.1); // a step that vanishes would find no blow-up
     }
-    if parameters.viscosity > 0.0 {
-        dt = min(dt, 0.125 * h * h * parameters.rest_density / parameters.viscosity);
-    }
-    (*clock).free_dt = dt;
+    (*clock).free_dt = min(dt, constants.viscous_step);
 }
 
 // Length of the next step; the last two before `until` share what is left, so that none is tiny. 0: no step is left.

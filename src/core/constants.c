@@ -333,6 +333,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     double artificial = parameters->rest_density * parameters->artificial_viscosity * length;
     double laminar = 2.0 * (dimension + 2.0) * parameters->viscosity;
     constants->viscosity_factor = (float)fmax(artificial, laminar);
+    constants->viscous_step = (float)weir_viscous_step(parameters);
     constants->artificial_factor = artificial > laminar ? (float)artificial : 0.0f;
     // On the densest lattice Morris' Laplacian of a quadratic field is exact.
     constants->friction_factor = (float)(2.0 * parameters->viscosity / densest.laplacian);

@@ -38,6 +38,7 @@ WEIR_CONSTANT_NUMBER(laplacian_factor, "wcsph: the Laplacian over sum_j (1 - r /
 WEIR_CONSTANT_NUMBER(diffusion_limit, "wcsph: most of dt (dt + delta h / c0) for which the density's diffusion is stable, s^2")
 WEIR_CONSTANT_NUMBER(sound_speed, "wcsph: c0, chosen from the scene if the parameter is 0, m/s")
 WEIR_CONSTANT_NUMBER(acoustic_rate, "wcsph: c0 / h, 1/s")
+WEIR_CONSTANT_NUMBER(viscous_step, "wcsph: longest time step by laminar viscosity, s; very large without it")
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(laminar_factor, "wcsph: friction_factor if laminar viscosity is the larger one, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(friction_factor, "wcsph: 2 mu, calibrated so that the Laplacian is exact on the densest lattice, Pa s")

@@ -115,8 +115,7 @@ static double wcsph_time_step(const WeirScene *scene)
     WeirParameters parameters = weir_scene_resolved(scene);
     double h = weir_smoothing_length(parameters.kernel, parameters.support_radius);
     double sound = (double)parameters.courant * h / (1.1 * parameters.sound_speed);
-    double mu = parameters.viscosity;
-    return mu > 0.0 ? fmin(sound, 0.125 * h * h * parameters.rest_density / mu) : sound;
+    return fmin(sound, weir_viscous_step(&parameters));
 }
 
 double weir_scene_stable_time_step(const WeirScene *scene)

@@ -1,5 +1,8 @@
 #include "core/smoothing.h"
 
+#include <float.h>
+#include <math.h>
+
 static const double pi = 3.14159265358979323846;
 
 static double positive_power(double x, int n)
@@ -45,6 +48,13 @@ double weir_smoothing_slope(uint32_t kernel, double s)
 double weir_smoothing_length(uint32_t kernel, double support_radius)
 {
     return support_radius / (kernel == WEIR_KERNEL_QUINTIC ? 3.0 : 2.0);
+}
+
+double weir_viscous_step(const WeirParameters *parameters)
+{
+    double h = weir_smoothing_length(parameters->kernel, parameters->support_radius);
+    if (!(parameters->viscosity > 0.0f)) return FLT_MAX;
+    return fmin(h * h * parameters->rest_density / (16.0 * parameters->viscosity), FLT_MAX);
 }
 
 double weir_smoothing_factor(uint32_t kernel, uint32_t dimension, double support_radius)

@@ -26,3 +26,9 @@ double weir_smoothing_factor(uint32_t kernel, uint32_t dimension, double support
 double weir_smoothing_gradient_factor(uint32_t kernel, uint32_t dimension, double support_radius);
 // Smoothing length h in m: R / 2, or R / 3 for the quintic spline.
 double weir_smoothing_length(uint32_t kernel, double support_radius);
+
+// Longest time step, s, with which laminar viscosity is stable: h^2 rho0 / (16 mu); FLT_MAX without viscosity. On a lattice, velocities that
+// alternate along it decay at up to 18 mu / (rho0 h^2) by viscosity along the line between particles, and explicit steps
+// amplify them from twice that time on; clumps are stiffer, so it is half of it. (h^2 rho0 / (8 mu), J. P. Morris et al., J. Comput. Phys.
+// 136 (1997), is for viscosity that also acts across.)
+double weir_viscous_step(const WeirParameters *parameters);

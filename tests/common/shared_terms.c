@@ -320,7 +320,7 @@ static void the_time_step_is_the_smallest_limit(const WeirBackend *backend)
         WeirSim *sim = start(scene, backend, uniform);
         weir_test_step(sim, 1);
         double h = weir_sim_constants(sim)->smoothing_length;
-        const double expected[LIMITS] = {0.3 * h / (20 + 2), 0.3 * sqrt(h / 1000), 0.125 * h * h / 10};
+        const double expected[LIMITS] = {0.3 * h / (20 + 2), 0.3 * sqrt(h / 1000), h * h / 160};
         double found = weir_sim_clock(sim).time_step;
         CHECK_NEAR(found, expected[limit], 1e-5 * expected[limit]);
         weir_sim_destroy(sim);
@@ -334,9 +334,10 @@ static void finest_shear(const double place[3], float *density, float velocity[3
     velocity[1] = (int)floor(place[0] / spacing) % 2 ? 0.01f : -0.01f;
 }
 
-// The time step's viscous limit is what the finest shear needs: neighbouring columns that pass one another, the stiffest
-// flow for viscosity, lose most of their speed in a step, and do not turn round.
-static void the_finest_shear_decays_within_a_step(const WeirBackend *backend)
+// The time step's viscous limit is near what the finest shear needs: neighbouring columns that pass one another lose half of their
+// speed in a step, and do not turn round. (Near surfaces viscosity along the line between particles is up to three times as stiff:
+// viscous_step_is_stable in tests/core/test_stability.c.)
+static void the_finest_shear_decays_within_steps(const WeirBackend *backend)
 {
     for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
         WeirScene *scene = block(dimension);
@@ -353,7 +354,7 @@ static void the_finest_shear_decays_within_a_step(const WeirBackend *backend)
             float density, before[3] = {0, 0, 0};
             finest_shear(place, &density, before);
             double left = velocity[dimension * i + 1] / before[1];
-            assert_true(left > 0 && left < 0.5);
+            assert_true(left > 0.4 && left < 0.7);
             ++found;
         }
         assert_true(found >= SITES);
@@ -408,7 +409,7 @@ static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(hydrostatic_density_does_not_diffuse),
     WEIR_SHARED_TEST(torn_fluid_does_not_pull),
     WEIR_SHARED_TEST(the_time_step_is_the_smallest_limit),
-    WEIR_SHARED_TEST(the_finest_shear_decays_within_a_step),
+    WEIR_SHARED_TEST(the_finest_shear_decays_within_steps),
     WEIR_SHARED_TEST(momentum_is_kept_to_round_off),
 };
 WEIR_SHARED_GROUP(terms, tests);

@@ -5,6 +5,7 @@
 
 #include "common/build.h"
 #include "core/sim.h"
+#include "core/smoothing.h"
 
 typedef struct Configuration {
     const char *name;
@@ -106,13 +107,53 @@ static void estimate_scales_with_the_method(void **state)
     weir_scene_destroy(scene);
 }
 
+// 1/s: how fast velocities along x that alternate from column to column of a lattice decay by wcsph's viscosity near surfaces,
+// 2 (d + 2) nu sum_j V F (v_ij . x_ij) x_ij / r^2. An explicit step of 2 over it amplifies them.
+static double decay_of_columns(const WeirParameters *parameters, uint32_t dimension)
+{
+    double spacing = parameters->particle_spacing, volume = pow(spacing, dimension), sum = 0;
+    int reach = (int)(parameters->support_radius / spacing), deep = dimension == 3 ? reach : 0;
+    for (int k = -deep; k <= deep; ++k) {
+        for (int j = -reach; j <= reach; ++j) {
+            for (int i = -reach; i <= reach; ++i) {
+                double r2 = i * i + j * j + k * k;
+                if (i % 2 == 0) continue; // moves as the one in the middle does
+                double f = -weir_smoothing_gradient(parameters->kernel, dimension, sqrt(r2) * spacing,
+                                                    parameters->support_radius);
+                sum += 2 * volume * f * i * i / r2;
+            }
+        }
+    }
+    return 2 * (dimension + 2) * parameters->viscosity / parameters->rest_density * sum;
+}
+
+// Half of what a lattice stands is left to clumps.
+static void viscous_step_is_stable(void **state)
+{
+    (void)state;
+    const uint32_t every_kernel[] = {WEIR_KERNEL_WENDLAND, WEIR_KERNEL_CUBIC, WEIR_KERNEL_QUINTIC};
+    const float ratios[] = {2.1f, 2.5f, 3, 4};
+    WeirParameters parameters;
+    weir_parameters_default(&parameters);
+    parameters.viscosity = 20;
+    for (int n = 0; n < 24; ++n) {
+        uint32_t dimension = 2 + (uint32_t)n % 2;
+        parameters.kernel = every_kernel[n / 2 % 3];
+        parameters.support_radius = ratios[n / 6] * parameters.particle_spacing;
+        double share = weir_viscous_step(&parameters) * decay_of_columns(&parameters, dimension);
+        if (!(share > 0.3 && share < 1.2))
+            fail_msg("%uD, kernel %u, support %g: %g", dimension, parameters.kernel, ratios[n / 6], share);
+    }
+    parameters.viscosity = 0;
+    assert_true(weir_viscous_step(&parameters) > 1e30);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(holds_below_the_estimate),
-        cmocka_unit_test(breaks_well_above_the_estimate),
-        cmocka_unit_test(article_step_is_judged_rightly),
-        cmocka_unit_test(estimate_scales_with_the_method),
+        cmocka_unit_test(holds_below_the_estimate),       cmocka_unit_test(breaks_well_above_the_estimate),
+        cmocka_unit_test(article_step_is_judged_rightly), cmocka_unit_test(estimate_scales_with_the_method),
+        cmocka_unit_test(viscous_step_is_stable),
     };
     return cmocka_run_group_tests_name("stability", tests, NULL, NULL);
 }

@@ -343,7 +343,5 @@ void weir_wcsph_time_step(WeirWcsph *solver)
     // A step that vanishes would find no blow-up.
     if (clock->max_density_error > violent_error)
         dt *= fmaxf(sqrtf(violent_error / clock->max_density_error), 0.1f);
-    if (parameters->viscosity > 0.0f)
-        dt = fminf(dt, 0.125f * h * h * parameters->rest_density / parameters->viscosity);
-    clock->time_step = dt;
+    clock->time_step = fminf(dt, constants->viscous_step);
 }
