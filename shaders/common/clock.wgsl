@@ -1,4 +1,4 @@
-// Time and time step (weir_wcsph_time_step, next_step), for passes with a `control`. Times are counts of 2^-42 s in two words.
+// Time and time step (core/cpu/wcsph.c), for passes with a `control`. Times are counts of 2^-42 s in two words.
 
 const TICKS_PER_ROOT = 2097152.0; // 2^21: ticks of 2^-42 s are reached in two exact factors
 

@@ -1,5 +1,5 @@
-// First half of a step's move, with what empties slots on its way (weir_wcsph_drift). Used where the last step
-// finishes, and by pass drift for the first one of a batch.
+// First half of a step's move, with what empties slots on its way (core/cpu/wcsph_motion.c). Used where the last step finishes, and
+// by pass drift for the first one of a batch.
 const FATE_STAYS = 0u;
 const FATE_DRAINED = 1u;
 const FATE_LOST = 2u;

@@ -1,5 +1,5 @@
-// The second half of a step's move with health (weir_wcsph_finish): rho += dt/2 drho, x += dt/2 v + dt u; and the first half of the
-// next step's move, if there is one. Of fluid by pass forces, of which one thread of a workgroup calls clear_finish() before, and
+// The second half of a step's move with health (core/cpu/wcsph_motion.c): rho += dt/2 drho, x += dt/2 v + dt u; and the first half
+// of the next step's move, if there is one. Of fluid by pass forces, of which one thread of a workgroup calls clear_finish() before, and
 // publish_finish() after all others are through; of solids' particles by pass finish, if any move. After common/drift.wgsl.
 @group(0) @binding(BINDING_control) var<storage, read_write> control: SharedControl;
 

@@ -182,6 +182,90 @@ static void forces(WeirWcsph *solver)
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, forces_chunk, solver);
 }
 
+// ---- Motion ----
+
+static void drift(WeirWcsph *solver)
+{
+    solver->drained_in_step = solver->lost_in_step = 0;
+    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, solver->motion->drift,
+                  solver);
+    solver->clock.drained_particles += solver->drained_in_step;
+    solver->clock.lost_particles += solver->lost_in_step;
+    if (solver->has_moving_solids) {
+        float half = 0.5f * solver->dt;
+        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + half, half,
+                          solver->solids);
+        weir_wcsph_place_solids(solver, &solver->state);
+    }
+    if (solver->has_emitters) weir_wcsph_emit(solver);
+}
+
+static void kick(WeirWcsph *solver)
+{
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, solver->motion->kick, solver);
+}
+
+static void begin_maxima(WeirWcsph *solver)
+{
+    solver->speed_bits = solver->acceleration_bits = solver->density_bits = 0;
+    solver->fluid_in_step = solver->bad_in_step = 0;
+    solver->first_bad_id = UINT32_MAX;
+}
+
+// The largest values of the step that is over, or of a new state.
+static void take_maxima(WeirWcsph *solver)
+{
+    WeirWcsphClock *clock = &solver->clock;
+    clock->max_speed = weir_float_of(solver->speed_bits);
+    clock->max_acceleration = weir_float_of(solver->acceleration_bits);
+    clock->max_density_error = weir_float_of(solver->density_bits);
+    clock->fluid_particles = solver->fluid_in_step;
+    for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
+        if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
+        const float *a = solver->solids[n].acceleration;
+        clock->max_acceleration =
+            fmaxf(clock->max_acceleration, sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
+    }
+}
+
+// The sorted particles become the state.
+static void finish(WeirWcsph *solver)
+{
+    begin_maxima(solver);
+    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, solver->motion->finish, solver);
+    if (solver->has_moving_solids) {
+        float half = 0.5f * solver->dt;
+        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + solver->dt, half,
+                          solver->solids);
+        weir_wcsph_place_solids(solver, &solver->sorted);
+    }
+    WeirWcsphParticles sorted = solver->sorted;
+    solver->sorted = solver->state;
+    solver->state = sorted;
+    take_maxima(solver);
+}
+
+// Density error from which steps get shorter: three times what the method is valid for.
+static const float violent_error = 0.1f;
+
+static void time_step(WeirWcsph *solver)
+{
+    const WeirParameters *parameters = &solver->parameters;
+    const WeirConstants *constants = &solver->constants;
+    WeirWcsphClock *clock = &solver->clock;
+    if (parameters->stepping == WEIR_STEPPING_FIXED) {
+        clock->time_step = parameters->time_step;
+        return;
+    }
+    float h = constants->smoothing_length, dt = h / (constants->sound_speed + clock->max_speed);
+    if (clock->max_acceleration > 0.0f) dt = fminf(dt, sqrtf(h / clock->max_acceleration));
+    dt *= parameters->courant;
+    // A step that vanishes would find no blow-up.
+    if (clock->max_density_error > violent_error)
+        dt *= fmaxf(sqrtf(violent_error / clock->max_density_error), 0.1f);
+    clock->time_step = fminf(dt, constants->viscous_step);
+}
+
 // ---- The step ----
 
 static void timed(WeirWcsph *solver, WeirWcsphPass pass, void (*run)(WeirWcsph *))
@@ -220,15 +304,15 @@ static void evaluate_by_pair(WeirWcsph *solver)
 
 static void take_step(WeirWcsph *solver)
 {
-    timed(solver, WEIR_WCSPH_TIME_STEP, weir_wcsph_time_step); // the next one's
-    timed(solver, WEIR_WCSPH_DRIFT, weir_wcsph_drift);
+    timed(solver, WEIR_WCSPH_TIME_STEP, time_step); // the next one's
+    timed(solver, WEIR_WCSPH_DRIFT, drift);
     if (solver->walls_by_pair)
         evaluate_by_pair(solver);
     else
         evaluate(solver);
     timed(solver, WEIR_WCSPH_SOLIDS, weir_wcsph_solids);
-    timed(solver, WEIR_WCSPH_KICK, weir_wcsph_kick);
-    timed(solver, WEIR_WCSPH_FINISH, weir_wcsph_finish);
+    timed(solver, WEIR_WCSPH_KICK, kick);
+    timed(solver, WEIR_WCSPH_FINISH, finish);
 }
 
 // The first two time steps follow from the accelerations and speeds at the start.
@@ -237,7 +321,7 @@ static void choose_first_step(WeirWcsph *solver)
     solver->keeps_seen = solver->walls_by_pair;
     evaluate(solver);
     solver->keeps_seen = false;
-    weir_wcsph_begin_maxima(solver);
+    begin_maxima(solver);
     for (uint32_t i = 0; i < solver->active; ++i) {
         if (!weir_group_is_fluid(solver->sorted.group[i])) continue;
         float speed2 = 0.0f, acceleration2 = 0.0f;
@@ -252,8 +336,8 @@ static void choose_first_step(WeirWcsph *solver)
                         fabsf(solver->sorted.excess[i]) / solver->parameters.rest_density);
         ++solver->fluid_in_step;
     }
-    weir_wcsph_take_maxima(solver);
-    weir_wcsph_time_step(solver);
+    take_maxima(solver);
+    time_step(solver);
 }
 
 // Length of the next step; the last two before `until` share what is left, so that none is tiny. 0: it is reached.
@@ -405,6 +489,7 @@ WeirSolver *weir_wcsph_cpu_create(const WeirSolverSetup *setup, WeirStatus *stat
     }
     solver->base.interface = &wcsph_interface;
     solver->passes = weir_wcsph_passes();
+    solver->motion = weir_wcsph_motion();
     weir_cpu_describe(&solver->base, solver->pool, solver->passes->simd);
     set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;

@@ -64,6 +64,7 @@ typedef struct WeirWcsph {
     WeirConstants constants;
     WeirPool *pool;
     const WeirWcsphPasses *passes;
+    const struct WeirWcsphMotion *motion;
     WeirCells cells;
     WeirWcsphParticles state;  // what the last step left
     WeirWcsphParticles sorted; // the same by cell, empty slots last
@@ -93,7 +94,7 @@ typedef struct WeirWcsph {
     atomic_uint first_bad_id;
     atomic_uint speed_bits, acceleration_bits,
         density_bits; // largest values of the step: floats >= 0, compared as bits
-    atomic_uint fluid_in_step;
+    atomic_uint fluid_in_step, drained_in_step, lost_in_step;
     struct WeirHostCopy *host;
     double pass_seconds[WEIR_WCSPH_PASSES];
 } WeirWcsph;
@@ -132,15 +133,16 @@ static inline float *weir_wcsph_seen(const WeirWcsph *solver, uint32_t i)
     return solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
 }
 
-// ---- wcsph_motion.c ----
-void weir_wcsph_drift(WeirWcsph *solver);
-void weir_wcsph_kick(WeirWcsph *solver);
-void weir_wcsph_finish(WeirWcsph *solver);
-void weir_wcsph_time_step(WeirWcsph *solver);
-// Largest values of the sorted particles as `time_step` needs them: cleared, and taken when all are noted; called by finish
-// and at the start.
-void weir_wcsph_begin_maxima(WeirWcsph *solver);
-void weir_wcsph_take_maxima(WeirWcsph *solver);
+// ---- wcsph_motion.c: once per instruction set ----
+// Each handles particles [begin, end) and writes nothing else; `context`: the solver.
+typedef struct WeirWcsphMotion {
+    void (*drift)(void *context, uint32_t begin, uint32_t end);  // of the state
+    void (*kick)(void *context, uint32_t begin, uint32_t end);   // of the sorted particles
+    void (*finish)(void *context, uint32_t begin, uint32_t end); // of the sorted particles
+} WeirWcsphMotion;
+
+// For the widest that this processor runs.
+const WeirWcsphMotion *weir_wcsph_motion(void);
 
 // ---- wcsph_solids.c ----
 // Velocity of every solid's particles among `particles`, `surface`: with the surface's own.

@@ -1,11 +1,18 @@
-// What moves particles: drift, kick, finish, time_step of docs/wcsph.md. Mirrors shaders/wcsph/.
+// What moves particles: drift, kick, finish of docs/wcsph.md, each for particles [begin, end). Mirrors shaders/wcsph/.
 //
-// WEIR_LANES particles at a time, which share no sums; what happens to few (seal, drains, nozzles) one by one.
+// WEIR_LANES particles at a time, which share no sums; what happens to few (drains, nozzles) one by one. The build compiles this
+// file once per instruction set; all variants give the same bits.
 #include "core/cpu/simd.h"
 #include "core/cpu/wcsph.h"
 #include "core/grid.h"
 
 #include <math.h>
+
+// Name of the variant that this compilation makes.
+#ifndef WEIR_WCSPH_MOTION
+#define WEIR_WCSPH_MOTION weir_wcsph_motion_base
+#endif
+extern const WeirWcsphMotion WEIR_WCSPH_MOTION;
 
 // Where distances lead, in quanta: by whole ones; what is not finite or absurd does not move.
 static inline WeirMask moved(const WeirConstants *constants, WeirMask x, WeirLanes distance, uint32_t period)
@@ -88,15 +95,9 @@ static bool has_passed(const WeirWcsph *solver, uint32_t i)
     return along >= 0.0f;
 }
 
-typedef struct Drift {
-    WeirWcsph *solver;
-    atomic_uint drained, lost;
-} Drift;
-
 // What leaves the fluid or enters it: few particles, one by one.
-static void leave_or_enter(Drift *drift, uint32_t i, bool drained, bool outside)
+static void leave_or_enter(WeirWcsph *solver, uint32_t i, bool drained, bool outside)
 {
-    WeirWcsph *solver = drift->solver;
     uint32_t *group = &solver->state.group[i];
     if (*group != WEIR_GROUP_FLUID) {
         if (has_passed(solver, i)) *group = WEIR_GROUP_FLUID;
@@ -104,13 +105,13 @@ static void leave_or_enter(Drift *drift, uint32_t i, bool drained, bool outside)
     }
     if (!drained && !outside) return;
     *group = WEIR_GROUP_EMPTY;
-    atomic_fetch_add_explicit(drained ? &drift->drained : &drift->lost, 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(drained ? &solver->drained_in_step : &solver->lost_in_step, 1,
+                              memory_order_relaxed);
 }
 
-static void drift_chunk(void *context, uint32_t begin, uint32_t end)
+static void drift(void *context, uint32_t begin, uint32_t end)
 {
-    Drift *drift = context;
-    WeirWcsph *solver = drift->solver;
+    WeirWcsph *solver = context;
     WeirWcsphParticles *state = &solver->state;
     const WeirConstants *constants = &solver->constants;
     float half = 0.5f * solver->dt;
@@ -130,30 +131,15 @@ static void drift_chunk(void *context, uint32_t begin, uint32_t end)
         WeirMask special = outside | drained | (fluid & ~free_lanes(state->group, i, end));
         if (!weir_mask_any(special)) continue;
         for (uint32_t lane = 0; lane < WEIR_LANES; ++lane) {
-            if (special[lane]) leave_or_enter(drift, i + lane, drained[lane], outside[lane]);
+            if (special[lane]) leave_or_enter(solver, i + lane, drained[lane], outside[lane]);
         }
     }
-}
-
-void weir_wcsph_drift(WeirWcsph *solver)
-{
-    Drift drift = {.solver = solver};
-    weir_pool_run(solver->pool, solver->constants.particle_count, WEIR_WCSPH_CHUNK, drift_chunk, &drift);
-    solver->clock.drained_particles += drift.drained;
-    solver->clock.lost_particles += drift.lost;
-    if (solver->has_moving_solids) {
-        float half = 0.5f * solver->dt;
-        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + half, half,
-                          solver->solids);
-        weir_wcsph_place_solids(solver, &solver->state);
-    }
-    if (solver->has_emitters) weir_wcsph_emit(solver);
 }
 
 // ---- kick ----
 
 // An inlet's particles keep their velocity.
-static void kick_chunk(void *context, uint32_t begin, uint32_t end)
+static void kick(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
     const WeirWcsphData *data = &solver->data;
@@ -166,11 +152,6 @@ static void kick_chunk(void *context, uint32_t begin, uint32_t end)
                              v + dt * weir_lanes_load(data->acceleration[axis] + i));
         }
     }
-}
-
-void weir_wcsph_kick(WeirWcsph *solver)
-{
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, kick_chunk, solver);
 }
 
 // ---- finish ----
@@ -243,7 +224,7 @@ static inline void seal(const WeirConstants *constants, uint32_t axis, WeirMask 
 // Share of the rest density below which fluid is not stretched, but torn: its tension would pull without bound.
 static const float least_density = 0.8f;
 
-static void finish_chunk(void *context, uint32_t begin, uint32_t end)
+static void finish(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
     const WeirWcsphData *data = &solver->data;
@@ -283,65 +264,4 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end)
     note(solver, &maxima);
 }
 
-void weir_wcsph_begin_maxima(WeirWcsph *solver)
-{
-    solver->speed_bits = solver->acceleration_bits = solver->density_bits = 0;
-    solver->fluid_in_step = solver->bad_in_step = 0;
-    solver->first_bad_id = UINT32_MAX;
-}
-
-// The largest values of the step that is over, or of a new state.
-void weir_wcsph_take_maxima(WeirWcsph *solver)
-{
-    WeirWcsphClock *clock = &solver->clock;
-    clock->max_speed = weir_float_of(solver->speed_bits);
-    clock->max_acceleration = weir_float_of(solver->acceleration_bits);
-    clock->max_density_error = weir_float_of(solver->density_bits);
-    clock->fluid_particles = solver->fluid_in_step;
-    for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
-        if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
-        const float *a = solver->solids[n].acceleration;
-        clock->max_acceleration =
-            fmaxf(clock->max_acceleration, sqrtf(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
-    }
-}
-
-// The sorted particles become the state.
-void weir_wcsph_finish(WeirWcsph *solver)
-{
-    weir_wcsph_begin_maxima(solver);
-    weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, finish_chunk, solver);
-    if (solver->has_moving_solids) {
-        float half = 0.5f * solver->dt;
-        weir_solids_drift(&solver->world, &solver->constants, solver->clock.time + solver->dt, half,
-                          solver->solids);
-        weir_wcsph_place_solids(solver, &solver->sorted);
-    }
-    WeirWcsphParticles sorted = solver->sorted;
-    solver->sorted = solver->state;
-    solver->state = sorted;
-    weir_wcsph_take_maxima(solver);
-}
-
-// ---- time_step ----
-
-// Density error from which steps get shorter: three times what the method is valid for.
-static const float violent_error = 0.1f;
-
-void weir_wcsph_time_step(WeirWcsph *solver)
-{
-    const WeirParameters *parameters = &solver->parameters;
-    const WeirConstants *constants = &solver->constants;
-    WeirWcsphClock *clock = &solver->clock;
-    if (parameters->stepping == WEIR_STEPPING_FIXED) {
-        clock->time_step = parameters->time_step;
-        return;
-    }
-    float h = constants->smoothing_length, dt = h / (constants->sound_speed + clock->max_speed);
-    if (clock->max_acceleration > 0.0f) dt = fminf(dt, sqrtf(h / clock->max_acceleration));
-    dt *= parameters->courant;
-    // A step that vanishes would find no blow-up.
-    if (clock->max_density_error > violent_error)
-        dt *= fmaxf(sqrtf(violent_error / clock->max_density_error), 0.1f);
-    clock->time_step = fminf(dt, constants->viscous_step);
-}
+const WeirWcsphMotion WEIR_WCSPH_MOTION = {drift, kick, finish};
