@@ -65,24 +65,24 @@ fn light_in_pool(point: vec3f, lit: f32) -> vec3f {
 fn floor_light(point: vec3f, direction: vec3f, width: vec2f, lit: f32) -> vec4f {
     let side = frame.domain_max.xz - frame.domain_min.xz;
     let middle = 0.5 * (frame.domain_min.xz + frame.domain_max.xz);
-    // Tiles of round lengths, some thirty along the longer side; five times as large outside.
+    // Tiles of round lengths, some fifteen along the longer side; two and a half times as large outside.
     let decade = pow(10.0, floor(log(max(side.x, side.y)) / log(10.0) - 0.3));
-    let place = (point.xz - frame.domain_min.xz) / (0.1 * decade);
-    let pixel = max(width / (0.1 * decade), vec2f(1e-4));
+    let place = (point.xz - frame.domain_min.xz) / (0.2 * decade);
+    let pixel = max(width / (0.2 * decade), vec2f(1e-4));
     let from_middle = length(point.xz - middle) / ground_extent();
     let around = abs(point.xz - middle) - 0.5 * side;
     let away = max(around.x, around.y) / max(side.x, side.y);
     var color: vec3f;
     if away < pool_rim {
-        let tile = vec3f(0.43, 0.50, 0.53) * (1.0 + 0.16 * tile_variation(place, pixel));
-        color = mix(tile, vec3f(0.15, 0.20, 0.23), joints(place, 0.055, pixel)) * light_in_pool(point, lit);
+        let tile = vec3f(0.43, 0.50, 0.53) * (1.0 + 0.12 * tile_variation(place, pixel));
+        color = mix(tile, vec3f(0.24, 0.30, 0.33), joints(place, 0.03, pixel)) * light_in_pool(point, lit);
     } else {
-        let stone = vec3f(0.100, 0.135, 0.185) * (1.0 + 0.13 * tile_variation(0.2 * place, 0.2 * pixel));
+        let stone = vec3f(0.100, 0.135, 0.185) * (1.0 + 0.13 * tile_variation(0.4 * place, 0.4 * pixel));
         let lamp = exp(-14.0 * from_middle * from_middle);
         var light = sunlight * sun.y * mix(0.25, 1.0, lamp) * lit;
         if frame.water != 0u { light *= water_left(way_through_water(point)); }
         light += vec3f(0.20, 0.25, 0.32) * (1.0 - 0.45 * exp(-60.0 * away));
-        color = stone * (1.0 - 0.45 * joints(0.2 * place, 0.014, 0.2 * pixel)) * light;
+        color = stone * (1.0 - 0.45 * joints(0.4 * place, 0.014, 0.4 * pixel)) * light;
         let gloss = floor_gloss(direction);
         if gloss > 0.016 { color += gloss * sky(reflect(direction, vec3f(0.0, 1.0, 0.0))); } // close by, steep: none
     }
