@@ -88,23 +88,34 @@ static void sum_block(void *context, uint32_t begin, uint32_t end)
     }
 }
 
+// Of cells [first, last), the first of which starts at `sum`. Returns where the one after them starts.
+static uint32_t start_cells(WeirCells *cells, uint32_t first, uint32_t last, uint32_t sum)
+{
+    for (uint32_t cell = first; cell < last; ++cell) {
+        atomic_uint *counter = &cells->cell_count[cell];
+        cells->cell_start[cell] = sum;
+        sum += atomic_load_explicit(counter, memory_order_relaxed);
+        atomic_store_explicit(counter, 0, memory_order_relaxed);
+    }
+    return sum;
+}
+
 static void start_block(void *context, uint32_t begin, uint32_t end)
 {
     const Scan *scan = context;
     for (uint32_t block = begin; block < end; ++block) {
-        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK, sum = scan->cells->block_sum[block];
+        uint32_t first = block * SCAN_BLOCK, last = first + SCAN_BLOCK;
         if (last > scan->cell_count) last = scan->cell_count;
-        for (uint32_t cell = first; cell < last; ++cell) {
-            atomic_uint *counter = &scan->cells->cell_count[cell];
-            scan->cells->cell_start[cell] = sum;
-            sum += atomic_load_explicit(counter, memory_order_relaxed);
-            atomic_store_explicit(counter, 0, memory_order_relaxed);
-        }
+        start_cells(scan->cells, first, last, scan->cells->block_sum[block]);
     }
 }
 
 void weir_cells_scan(WeirCells *cells, WeirPool *pool, uint32_t cell_count)
 {
+    if (weir_pool_threads(pool) == 1) {
+        cells->cell_start[cell_count] = start_cells(cells, 0, cell_count, 0);
+        return;
+    }
     Scan scan = {cells, cell_count};
     uint32_t blocks = scan_blocks(cell_count), sum = 0;
     weir_pool_run(pool, blocks, 1, sum_block, &scan);

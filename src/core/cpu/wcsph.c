@@ -85,33 +85,37 @@ static void gather_particles(const WeirWcsph *solver, uint32_t begin, uint32_t e
     gather(to->group, from->group, slot, begin, end);
 }
 
+// Of a solid's particle.
+static void prepare_solid(WeirWcsph *solver, uint32_t k, uint32_t n)
+{
+    WeirWcsphData *data = &solver->data;
+    const WeirSolid *solid = &solver->world.solids[n];
+    if (solver->walls_by_pair)
+        for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][k] = weir_wcsph_seen(solver, k)[axis];
+    data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
+    data->barrier[k] = weir_solid_barrier(solid, &solver->solids[n], solver->bulk[n]);
+    data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
+}
+
 // What follows from a particle alone and the sums need; pass `walls` has the rest for solids.
 static void prepare(WeirWcsph *solver, uint32_t begin, uint32_t end)
 {
     WeirWcsphData *data = &solver->data;
     const float *excess = solver->sorted.excess;
+    const uint32_t *group = solver->sorted.group;
     float rest_density = solver->parameters.rest_density;
     bool linear = solver->parameters.equation_of_state == WEIR_EQUATION_LINEAR;
     for (uint32_t k = begin; k < end; ++k) data->inverse_density[k] = 1.0f / (rest_density + excess[k]);
     for (uint32_t k = begin; k < end; ++k) data->pressure[k] = equation_of_state(solver, linear, excess[k]);
-    for (int axis = 0; axis < 3; ++axis)
+    for (uint32_t axis = 0; axis < solver->constants.dimension; ++axis)
         memcpy(data->seen_velocity[axis] + begin, solver->sorted.velocity[axis] + begin,
                (end - begin) * sizeof(float));
-    for (uint32_t k = begin; k < end; ++k) {
-        uint32_t group = solver->sorted.group[k];
-        data->is_fluid[k] = weir_group_is_fluid(group) ? 1.0f : 0.0f;
-        data->stick[k] = data->barrier[k] = 1.0f;
-        data->needs_force[k] = 0.0f;
-        if (!weir_group_is_solid(group)) continue;
-        if (solver->walls_by_pair)
-            for (int axis = 0; axis < 3; ++axis)
-                data->seen_velocity[axis][k] = weir_wcsph_seen(solver, k)[axis];
-        const WeirSolid *solid = &solver->world.solids[group - WEIR_GROUP_SOLID];
-        data->stick[k] = solid->no_slip ? 1.0f : 0.0f;
-        data->barrier[k] = weir_solid_barrier(solid, &solver->solids[group - WEIR_GROUP_SOLID],
-                                              solver->bulk[group - WEIR_GROUP_SOLID]);
-        data->needs_force[k] = solver->forces_wanted || solid->kind == WEIR_SOLID_FREE ? 1.0f : 0.0f;
-    }
+    for (uint32_t k = begin; k < end; ++k) data->is_fluid[k] = weir_group_is_fluid(group[k]) ? 1.0f : 0.0f;
+    for (uint32_t k = begin; k < end; ++k) data->stick[k] = data->barrier[k] = 1.0f;
+    for (uint32_t k = begin; k < end; ++k) data->needs_force[k] = 0.0f;
+    if (solver->world.solid_count == 0) return;
+    for (uint32_t k = begin; k < end; ++k)
+        if (weir_group_is_solid(group[k])) prepare_solid(solver, k, group[k] - WEIR_GROUP_SOLID);
 }
 
 static void gather_chunk(void *context, uint32_t begin, uint32_t end)
