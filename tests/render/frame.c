@@ -87,7 +87,7 @@ static WeirView make_view(WeirSim *sim, uint32_t width, uint32_t height, int cou
         .color_max = number(count, values, 2, 5.0f),
         .particle_radius = 0.58f * weir_sim_parameters(sim)->particle_spacing,
         .camera_yaw = number(count, values, 4, 32.0f) * 0.0174533f,
-        .camera_pitch = number(count, values, 5, 18.0f) * 0.0174533f,
+        .camera_pitch = number(count, values, 5, 20.0f) * 0.0174533f,
         .camera_field_of_view = 0.61f,
     };
     for (int k = 0; k < 3; k++) {

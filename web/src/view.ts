@@ -9,7 +9,7 @@ export type Domain = { min: readonly number[]; max: readonly number[] };
 export type CameraAxes = { eye: Triple; right: Triple; up: Triple; ahead: Triple; focal: [number, number]; near: number };
 
 const homeYaw = 0.56;
-const homePitch = 0.30;
+const homePitch = 0.35; // the horizon just beyond the upper edge
 const fieldOfView = 0.6;
 const mostPitch = 1.55;
 const leastPitch = -0.2; // a little from below

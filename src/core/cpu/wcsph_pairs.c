@@ -194,6 +194,8 @@ INLINE uint32_t note_seen(const WeirWcsphData *data, WeirLanes support2, const W
 {
     uint32_t count = 0;
     if (end - begin > MOST_SEEN) end = begin + MOST_SEEN;
+    if (fluid_alone && !any_set(data->is_fluid, begin, end - begin))
+        return 0; // most of what a wall has around it
     for (uint32_t j = begin; j < end; ++j) {
         seen[count] = j;
         count += is_seen(data, support2, place, j, variant) & (!fluid_alone | (data->is_fluid[j] != 0.0f));
