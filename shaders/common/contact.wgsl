@@ -98,14 +98,15 @@ fn may_touch(header: u32) -> bool {
 }
 
 // Penalty contact of a free body's particle with other solids closer than CONTACT_RANGE: stiff as the fluid, half
-// damped, never attracting; less so if either is light.
-fn contact_force(own: vec4i) -> Vector {
+// damped, never attracting; less so if either is light. In w the mass of fluid that so many pairs would move.
+fn contact_force(own: vec4i) -> vec4f {
     let spacing = parameters.particle_spacing;
     let mass = constants.particle_mass;
     let c = constants.sound_speed;
     let group = u32(own.w);
     let velocity = solid_velocity(group, place_of(own));
     var force = Vector();
+    var pressed = 0.0;
     let start = side_start(now().last_side);
     let reach = quanta_of_spacings(CONTACT_RANGE);
     var walk = walk_around(place_of(own), i32(reach) + 4 + i32(now().travelled - control.sorted_at));
@@ -122,9 +123,11 @@ fn contact_force(own: vec4i) -> Vector {
                 let relative = velocity - solid_velocity(u32(other.w), place_of(other));
                 let push = 0.25 * mass * c * c / (spacing * spacing) * (spacing - r)
                     - 0.5 * mass * c / spacing * dot(relative, wide(offset)) / r;
-                force += (min(bulk_of(group), bulk_of(u32(other.w))) * max(push, 0.0) / r) * offset;
+                let bulk = min(bulk_of(group), bulk_of(u32(other.w)));
+                force += (bulk * max(push, 0.0) / r) * offset;
+                pressed += bulk * mass;
             }
         }
     }
-    return force;
+    return vec4f(wide(force), pressed);
 }

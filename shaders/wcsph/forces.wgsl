@@ -597,10 +597,10 @@ fn forces_on_solid(i: u32, own: vec4i, own_motion: vec4f, local: u32, opening: O
         set_kicked(i, vec4f(acceleration.xyz, linear_pressure(own_motion.w)));
         return;
     }
-    var contact = Vector();
+    var contact = vec4f();
     if may_touch(opening.header.x) {
         contact = contact_force(own);
     }
-    set_kicked(i, vec4f(wide(contact), 0.0));
+    set_kicked(i, contact);
     set_kicked(constants.particle_count + i, constants.particle_mass * acceleration);
 }

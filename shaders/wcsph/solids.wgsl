@@ -30,7 +30,9 @@ fn kicked_solid(n: u32) -> SolidState {
     // Contact moves the body, but the force that is told is the fluid's.
     state.force = sums[0];
     state.torque = sums[1];
-    state = kicked_free(n, state, (sums[0] + sums[2]).xyz, (sums[1] + sums[3]).xyz, control.clock.dt);
+    let mass = solid_table[n].mass;
+    let share = select(1.0, mass / sums[2].w, sums[2].w > mass);
+    state = kicked_free(n, state, (sums[0] + share * sums[2]).xyz, (sums[1] + share * sums[3]).xyz, control.clock.dt);
     let square = dot(state.acceleration.xyz, state.acceleration.xyz);
     if is_finite(square) {
         atomicMax(&acceleration2_most, bitcast<u32>(square));

@@ -409,6 +409,25 @@ static void bodies_push_each_other(void **state)
     weir_test_world_free(&test);
 }
 
+// What is crushed comes to rest: contact of however many pairs is no more than one step may take.
+static void a_crushed_body_rests(void **state)
+{
+    (void)state;
+    const WeirBackend *const backends[] = {weir_cpu_backend(), weir_gpu_backend(gpu)};
+    for (int n = 0; n < 2; ++n) {
+        WeirTestWorld test = weir_test_case("crushed_2d");
+        WeirSolver *solver = weir_test_world_solver(&test, backends[n]);
+        take_steps(solver, 150, INFINITY);
+        const WeirSolidState *plate = &read_state(solver).solids[1];
+        float speed = hypotf(plate->velocity[0], plate->velocity[1]);
+        if (speed > 0.2f || fabsf(plate->angular_velocity[2]) > 0.5f)
+            fail_msg("%s: %g m/s, %g 1/s", backends[n]->name, (double)speed,
+                     (double)plate->angular_velocity[2]);
+        solver->interface->destroy(solver);
+        weir_test_world_free(&test);
+    }
+}
+
 // A tap and a drain for a long time: no particle appears from nowhere or vanishes, and slots are used again.
 static void taps_never_run_dry(void **state)
 {
@@ -578,6 +597,7 @@ int main(void)
         cmocka_unit_test(a_blow_up_is_found),
         cmocka_unit_test(the_last_good_state_is_kept),
         cmocka_unit_test(bodies_push_each_other),
+        cmocka_unit_test(a_crushed_body_rests),
         cmocka_unit_test(taps_never_run_dry),
         cmocka_unit_test(sorts_are_offered_for_layers),
         cmocka_unit_test(parameters_change_while_it_runs),

@@ -159,6 +159,21 @@ static void bodies_2d(WeirTestWorld *test)
     }
 }
 
+// A plate that something heavy has crushed: ten times as many of its particles touch the other body as a face of it has.
+static void crushed_2d(WeirTestWorld *test)
+{
+    *test = start(2, 1.2, 0.9, 0);
+    weir_test_gravity(test->scene, 0, 0);
+    weir_test_world_fluid(test, (double[]){0, 0, 0}, (double[]){1.2, 0.1, 0}, 0.05, 0.1);
+    weir_test_world_sides(test);
+    const double low[2][3] = {{0.15, 0.43, 0}, {0.35, 0.25, 0}},
+                 high[2][3] = {{0.95, 0.53, 0}, {1.0, 0.75, 0}};
+    for (int n = 0; n < 2; ++n) {
+        WeirSolid *body = weir_test_world_solid(test, WEIR_SOLID_FREE, low[n], high[n], NOWHERE);
+        weir_test_world_body(test, body, low[n], high[n], n ? 7800 : 1);
+    }
+}
+
 static void body_3d(WeirTestWorld *test)
 {
     *test = start(3, 0.6, 0.7, 0.4);
@@ -303,6 +318,7 @@ const WeirTestCase weir_test_cases[] = {
     {"taps_2d", taps_2d, 40},       {"tap_3d", tap_3d, 33},           {"open_2d", open_2d, 40},
     {"long_2d", long_2d, 40},       {"folded_2d", folded_2d, 20},     {"folded_3d", folded_3d, 20},
     {"border_2d", border_2d, 40},   {"throw_2d", throw_2d, 15},       {"throw_3d", throw_3d, 15},
+    {"crushed_2d", crushed_2d, 10},
 };
 const uint32_t weir_test_case_count = sizeof weir_test_cases / sizeof weir_test_cases[0];
 

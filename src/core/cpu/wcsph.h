@@ -10,7 +10,7 @@
 // Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
 enum { WEIR_WCSPH_CHUNK = 512, WEIR_WCSPH_CELL_CHUNK = 4096 };
 // Numbers per solid particle in solid_force.
-enum { WEIR_WCSPH_SOLID_FORCES = 7 };
+enum { WEIR_WCSPH_SOLID_FORCES = 8 };
 
 // Between steps all of a particle; vectors have three arrays also in 2D.
 typedef struct WeirWcsphParticles {
@@ -80,7 +80,7 @@ typedef struct WeirWcsph {
     float *
         seen; // 3 per solid particle, with walls_by_pair: the velocity that fluid sees, of the step before, m/s
     float *
-        solid_force; // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid, of contact, N; mass of fluid, kg
+        solid_force; // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid, of contact, N; mass of fluid around, and pressed by contact, kg
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
     bool walls_by_pair;         // in 2D where no solid moves: WeirWcsphData

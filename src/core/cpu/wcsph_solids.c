@@ -161,8 +161,8 @@ static float bulk_of(const WeirWcsph *solver, uint32_t i)
 }
 
 // Penalty contact of sorted particle i, of a free body, with the particles of other solids closer than one spacing:
-// stiff as the fluid, half damped, less so if either is light.
-static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
+// stiff as the fluid, half damped, less so if either is light. Returns the mass of fluid that so many pairs would move.
+static float contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
 {
     const WeirConstants *constants = &solver->constants;
     const WeirWcsphData *data = &solver->data;
@@ -173,6 +173,7 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
     weir_take_lanes(constants, data->cell_start, data->x, i, i + 1, &group);
     weir_find_runs(constants, data->cell_start, &group);
     memset(force, 0, 3 * sizeof *force);
+    float pressed = 0.0f;
     for (uint32_t n = 0; n < group.run_count; ++n) {
         for (uint32_t j = group.run[n].begin; j < group.run[n].end; ++j) {
             if (!weir_group_is_solid(solver->sorted.group[j]) ||
@@ -186,12 +187,14 @@ static void contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
                 approach += (data->velocity[axis][i] - data->velocity[axis][j]) * x[axis];
             }
             if (r2 >= spacing * spacing || r2 == 0.0f) continue;
+            float bulk = fminf(bulk_of(solver, i), bulk_of(solver, j));
+            pressed += bulk * mass;
             float r = sqrtf(r2), push = stiffness * (spacing - r) - damping * approach / r;
             if (push <= 0.0f) continue;
-            push *= fminf(bulk_of(solver, i), bulk_of(solver, j));
-            for (int axis = 0; axis < 3; ++axis) force[axis] += push * x[axis] / r;
+            for (int axis = 0; axis < 3; ++axis) force[axis] += bulk * push * x[axis] / r;
         }
     }
+    return pressed;
 }
 
 static float *force_on(const WeirWcsph *solver, uint32_t id)
@@ -210,15 +213,16 @@ static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
         for (int axis = 0; axis < 3; ++axis) force[axis] = mass * data->acceleration[axis][i];
         force[6] = mass * data->wetted[i];
         if (solid_of(solver, solver->sorted.group[i])->kind == WEIR_SOLID_FREE)
-            contact_at(solver, i, force + 3);
+            force[7] = contact_at(solver, i, force + 3);
     }
 }
 
-// Of the fluid that a free body drags along: docs/wcsph.md, "Light bodies".
-static float dragged_mass(const WeirWcsph *solver, const WeirSolid *solid)
+// Sum of a column of the particles' forces: 6, the fluid that a free body drags along (docs/wcsph.md, "Light bodies"); 7, what
+// contact would move ("Bodies").
+static float mass_of(const WeirWcsph *solver, const WeirSolid *solid, int column)
 {
     double sum = 0.0;
-    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)[6];
+    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)[column];
     return (float)sum;
 }
 
@@ -264,13 +268,15 @@ void weir_wcsph_solids(WeirWcsph *solver)
     for (uint32_t n = 0; n < count; ++n) {
         WeirSolidState *state = &solver->solids[n];
         if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
-        float force[3], torque[3];
+        const WeirSolid *solid = &solver->world.solids[n];
+        float force[3], torque[3], pressed = mass_of(solver, solid, 7);
+        float share = pressed > solid->mass ? solid->mass / pressed : 1.0f;
         sum_forces(solver, n, 3, force, torque);
         for (int axis = 0; axis < 3; ++axis) {
-            state->force[axis] += force[axis];
-            state->torque[axis] += torque[axis];
+            state->force[axis] += share * force[axis];
+            state->torque[axis] += share * torque[axis];
         }
-        state->force[3] = dragged_mass(solver, &solver->world.solids[n]);
+        state->force[3] = mass_of(solver, solid, 6);
     }
     weir_solids_kick(&solver->world, solver->parameters.gravity, solver->clock.time, solver->dt,
                      solver->solids);
