@@ -10,8 +10,8 @@
 //
 // in:  coordinate, motion, cell_start, neighbor_list, solid_state, control
 // out: coordinate, motion: the other working copy, or the state if that is to be sorted or no step follows; step_end.
-//      kicked, of particles of free bodies: force of contact; its second copy: force of the fluid, and how much of it
-//      is around, kg. control: maxima, and the next step's clock
+//      kicked, of particles of free bodies: force of contact, and how much that would move, kg; its second copy: force of the
+//      fluid, and how much of it is around, kg. control: maxima, and the next step's clock
 const OWN_CLOCK = FORCES_READ || ONE_PASS;
 
 // Of a step: which of the clocks and maxima are its own.
