@@ -79,8 +79,9 @@ typedef struct WeirWcsph {
     float *bulk;       // by solid: weir_solid_bulk()
     float *
         seen; // 3 per solid particle, with walls_by_pair: the velocity that fluid sees, of the step before, m/s
-    float *
-        solid_force; // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid, of contact, N; mass of fluid around, and pressed by contact, kg
+    // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid and of contact, N; mass of the fluid around it, and of what
+    // contact would move, kg
+    float *solid_force;
     bool forces_wanted; // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
     bool walls_by_pair;         // in 2D where no solid moves: WeirWcsphData

@@ -218,7 +218,7 @@ static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
 }
 
 // Sum of a column of the particles' forces: 6, the fluid that a free body drags along (docs/wcsph.md, "Light bodies"); 7, what
-// contact would move ("Bodies").
+// contact would move ("Contact of solids").
 static float mass_of(const WeirWcsph *solver, const WeirSolid *solid, int column)
 {
     double sum = 0.0;
