@@ -14,7 +14,7 @@ static void operations_do_what_they_say(void **state)
 {
     (void)state;
     check_operations("base", weir_test_simd_base());
-#if defined(__x86_64__)
+#if defined(WEIR_SIMD_AVX2)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) check_operations("AVX2", weir_test_simd_avx2());
     if (__builtin_cpu_supports("avx512f")) check_operations("AVX-512", weir_test_simd_avx512());

@@ -58,13 +58,20 @@ typedef enum WeirWcsphPass {
     WEIR_WCSPH_PASSES
 } WeirWcsphPass;
 
+// wcsph_motion.c, once per instruction set. Each handles particles [begin, end) and writes nothing else; `context`: the solver.
+typedef struct WeirWcsphMotion {
+    void (*drift)(void *context, uint32_t begin, uint32_t end);  // of the state
+    void (*kick)(void *context, uint32_t begin, uint32_t end);   // of the sorted particles
+    void (*finish)(void *context, uint32_t begin, uint32_t end); // of the sorted particles
+} WeirWcsphMotion;
+
 typedef struct WeirWcsph {
     WeirSolver base;
     WeirParameters parameters;
     WeirConstants constants;
     WeirPool *pool;
     const WeirWcsphPasses *passes;
-    const struct WeirWcsphMotion *motion;
+    const WeirWcsphMotion *motion;
     WeirCells cells;
     WeirWcsphParticles state;  // what the last step left
     WeirWcsphParticles sorted; // the same by cell, empty slots last
@@ -134,15 +141,8 @@ static inline float *weir_wcsph_seen(const WeirWcsph *solver, uint32_t i)
     return solver->seen + 3 * (size_t)(solver->sorted.id[i] - solver->constants.first_solid);
 }
 
-// ---- wcsph_motion.c: once per instruction set ----
-// Each handles particles [begin, end) and writes nothing else; `context`: the solver.
-typedef struct WeirWcsphMotion {
-    void (*drift)(void *context, uint32_t begin, uint32_t end);  // of the state
-    void (*kick)(void *context, uint32_t begin, uint32_t end);   // of the sorted particles
-    void (*finish)(void *context, uint32_t begin, uint32_t end); // of the sorted particles
-} WeirWcsphMotion;
-
-// For the widest that this processor runs.
+// ---- dispatch.c ----
+// Motion for the widest instruction set that this processor runs.
 const WeirWcsphMotion *weir_wcsph_motion(void);
 
 // ---- wcsph_solids.c ----
