@@ -1,4 +1,5 @@
 #include "backend.h"
+#include "known_device.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,13 +7,18 @@
 
 #if WEIR_WITH_GPU
 
-static WeirStatus open_gpu(WeirCliBackend *backend, double list_memory, char *message, size_t message_size)
+static WeirStatus open_gpu(WeirCliBackend *backend, WeirCliDevice device, char *message, size_t message_size)
 {
+    WeirKnownDevice known = weir_cli_recall_device();
+    bool is_told = device.parallelism > 0.0;
     // Vulkan drivers look for a Wayland display and print errors where this is not set, as on a server.
     setenv("XDG_RUNTIME_DIR", "/tmp", 0);
     // Weir's passes clamp every index themselves, so the driver need not check them again.
     backend->gpu = weir_gpu_create(
-        &(WeirGpuOptions){.trusted_shaders = true, .list_memory = (uint64_t)(list_memory * 1073741824.0)});
+        &(WeirGpuOptions){.trusted_shaders = true,
+                          .list_memory = (uint64_t)(device.list_memory * 1073741824.0),
+                          .parallelism = is_told ? (uint32_t)device.parallelism : known.parallelism,
+                          .parallelism_device = is_told ? NULL : known.name});
     if (!backend->gpu) {
         snprintf(message, message_size, "memory ran out");
         return WEIR_ERROR_MEMORY;
@@ -20,6 +26,7 @@ static WeirStatus open_gpu(WeirCliBackend *backend, double list_memory, char *me
     WeirStatus status = weir_gpu_wait(backend->gpu);
     if (!status) {
         backend->backend = weir_gpu_backend(backend->gpu);
+        if (!is_told) weir_cli_remember_device(&known, backend->gpu);
         return WEIR_OK;
     }
     snprintf(message, message_size, "%s", weir_gpu_error(backend->gpu));
@@ -40,10 +47,10 @@ static void close_gpu(WeirCliBackend *backend)
 
 #else
 
-static WeirStatus open_gpu(WeirCliBackend *backend, double list_memory, char *message, size_t message_size)
+static WeirStatus open_gpu(WeirCliBackend *backend, WeirCliDevice device, char *message, size_t message_size)
 {
     (void)backend;
-    (void)list_memory;
+    (void)device;
     snprintf(message, message_size, "this build has no GPU backend (built with WEIR_GPU=OFF)");
     return WEIR_ERROR_DEVICE;
 }
@@ -61,12 +68,12 @@ static void close_gpu(WeirCliBackend *backend)
 
 #endif
 
-WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, double list_memory, char *message,
-                                 size_t message_size)
+WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, WeirCliDevice device,
+                                 char *message, size_t message_size)
 {
     *backend = (WeirCliBackend){.backend = weir_cpu_backend()};
     if (strcmp(name, "cpu") == 0) return WEIR_OK;
-    WeirStatus status = open_gpu(backend, list_memory, message, message_size);
+    WeirStatus status = open_gpu(backend, device, message, message_size);
     if (strcmp(name, "gpu") == 0) return status;
     if (!status && is_software(backend)) {
         weir_cli_backend_close(backend);
@@ -75,11 +82,11 @@ WeirStatus weir_cli_backend_open(WeirCliBackend *backend, const char *name, doub
     return WEIR_OK;
 }
 
-bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, double list_memory,
+bool weir_cli_backend_choose(WeirCliBackend *backend, const char *name, WeirCliDevice device,
                              const char *command)
 {
     char message[512];
-    if (!weir_cli_backend_open(backend, name, list_memory, message, sizeof message)) return true;
+    if (!weir_cli_backend_open(backend, name, device, message, sizeof message)) return true;
     fprintf(stderr, "weir %s: --backend %s: %s\n", command, name, message);
     return false;
 }

@@ -15,7 +15,8 @@ enum { MAX_ITEMS = 32, MAX_RUNS = 66, SUITE_REPETITIONS = 5 };
 typedef struct BenchOptions {
     const char *counts, *backends, *search, *threads, *bench_case, *scene, *suite, *compare;
     WeirCount repetitions;
-    double seconds, scale, list_memory;
+    double seconds, scale;
+    WeirCliDevice device;
     bool json, csv, passes;
 } BenchOptions;
 
@@ -270,7 +271,7 @@ static bool open_gpu(Bench *bench)
     char message[512];
     if (!bench->plan.gpu) return true;
     WeirStatus status = weir_cli_backend_open(&bench->gpu, bench->plan.gpu_must ? "gpu" : "auto",
-                                              bench->options.list_memory, message, sizeof message);
+                                              bench->options.device, message, sizeof message);
     if (status) fprintf(stderr, "weir bench: --backends gpu: %s\n", message);
     if (!status && !bench->gpu.gpu) fprintf(stderr, "weir bench: no GPU here, or only a software one\n");
     return !status;
@@ -329,8 +330,10 @@ static const WeirOption bench_options[] = {
      "both; all but the article's table: grid"},
     {"--threads", WEIR_OPTION_TEXT, "N,N,...", NULL, FIELD(threads), 0, 0,
      "on the CPU; 1 and one per core; suites: one per core"},
-    {"--list-memory", WEIR_OPTION_NUMBER, "GIB", NULL, FIELD(list_memory), 1e-3, 1e6,
+    {"--list-memory", WEIR_OPTION_NUMBER, "GIB", NULL, FIELD(device.list_memory), 1e-3, 1e6,
      "that neighbour lists may take on the GPU (without them: slower); 8"},
+    {"--parallelism", WEIR_OPTION_NUMBER, "N", NULL, FIELD(device.parallelism), 1, 4e9,
+     "threads that keep the GPU busy; measured once per device and remembered"},
     {"--case", WEIR_OPTION_CHOICE, NULL, WEIR_BENCH_CASES, FIELD(bench_case), 0, 0,
      "what to measure, see docs/performance.md; article"},
     {"--scene", WEIR_OPTION_TEXT, "FILE", NULL, FIELD(scene), 0, 0, "measure a scene file instead"},

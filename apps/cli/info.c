@@ -49,12 +49,14 @@ static json_t *gpu_json(void)
 {
     WeirCliBackend backend;
     char message[512];
-    if (weir_cli_backend_open(&backend, "gpu", 0.0, message, sizeof message)) {
+    if (weir_cli_backend_open(&backend, "gpu", (WeirCliDevice){0}, message, sizeof message)) {
         return json_pack("{s:n, s:s}", "device", "error", message);
     }
 #if WEIR_WITH_GPU
-    json_t *gpu = json_pack("{s:s, s:b, s:o}", "device", weir_gpu_device(backend.gpu), "software",
-                            weir_gpu_is_software(backend.gpu), "limits", limits_json(backend.gpu));
+    json_t *gpu =
+        json_pack("{s:s, s:b, s:I, s:o}", "device", weir_gpu_device(backend.gpu), "software",
+                  weir_gpu_is_software(backend.gpu), "parallelism",
+                  (json_int_t)weir_gpu_parallelism(backend.gpu), "limits", limits_json(backend.gpu));
 #else
     json_t *gpu = json_object();
 #endif
@@ -97,6 +99,8 @@ static void print_text(const json_t *info)
     }
     printf("gpu       %s%s\n", text_of(gpu, "device"),
            json_is_true(json_object_get(gpu, "software")) ? " (software: --backend auto takes the CPU)" : "");
+    printf("          %-38s %lld\n", "parallelism (threads that keep it busy)",
+           (long long)json_integer_value(json_object_get(gpu, "parallelism")));
     json_object_foreach(json_object_get(gpu, "limits"), key, value)
     {
         printf("          %-38s %lld\n", key, (long long)json_integer_value(value));

@@ -15,7 +15,8 @@
 typedef struct RunOptions {
     const char *backend, *search, *dump, *probe_out;
     WeirCount threads, steps;
-    double time, list_memory;
+    double time;
+    WeirCliDevice device;
     WeirTextList set;
     bool json, quiet;
 } RunOptions;
@@ -59,7 +60,7 @@ static void plan_length(Run *run)
 static bool open_simulation(Run *run, int *exit_status)
 {
     *exit_status = WEIR_EXIT_FAILED;
-    if (!weir_cli_backend_choose(&run->backend, run->options.backend, run->options.list_memory, "run"))
+    if (!weir_cli_backend_choose(&run->backend, run->options.backend, run->options.device, "run"))
         return false;
     WeirSimOptions options = {.backend = run->backend.backend,
                               .threads = (uint32_t)run->options.threads.value};
@@ -262,8 +263,10 @@ static const WeirOption run_options[] = {
      "auto (the default): the GPU if it is a real one"},
     {"--threads", WEIR_OPTION_COUNT, "N", NULL, FIELD(threads), 0, 1024,
      "threads on the CPU; 0 (the default): one per core"},
-    {"--list-memory", WEIR_OPTION_NUMBER, "GIB", NULL, FIELD(list_memory), 1e-3, 1e6,
+    {"--list-memory", WEIR_OPTION_NUMBER, "GIB", NULL, FIELD(device.list_memory), 1e-3, 1e6,
      "that neighbour lists may take on the GPU (without them: slower); 8"},
+    {"--parallelism", WEIR_OPTION_NUMBER, "N", NULL, FIELD(device.parallelism), 1, 4e9,
+     "threads that keep the GPU busy; measured once per device and remembered"},
     {"--steps", WEIR_OPTION_COUNT, "N", NULL, FIELD(steps), 0, 1e15, "steps to take; 0 measures the start"},
     {"--time", WEIR_OPTION_NUMBER, "S", NULL, FIELD(time), 1e-7, 1e9,
      "simulated seconds instead; 1 if neither is given"},

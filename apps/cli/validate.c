@@ -166,7 +166,7 @@ static int run_command(int argument_count, char **arguments)
     if (!known_cases(&command.options.cases)) return WEIR_EXIT_INPUT;
     while (strcmp(weir_resolution_name(command.resolution), command.options.resolution) != 0)
         ++command.resolution;
-    if (!weir_cli_backend_choose(&command.backend, command.options.backend, 0.0, "validate"))
+    if (!weir_cli_backend_choose(&command.backend, command.options.backend, (WeirCliDevice){0}, "validate"))
         return WEIR_EXIT_FAILED;
     weir_cli_catch_interrupt();
     exit_status = validate_all(&command);

@@ -6,10 +6,14 @@
 
 #include <stdlib.h>
 
+// `parallelism`: of `device`, as it was told before; 0: not known.
 WEIR_WEB(weir_web_gpu_create)
-WeirGpu *weir_web_gpu_create(bool low_power, bool timestamps)
+WeirGpu *weir_web_gpu_create(bool low_power, bool timestamps, uint32_t parallelism, const char *device)
 {
-    return weir_gpu_create(&(WeirGpuOptions){.low_power = low_power, .no_timestamps = !timestamps});
+    return weir_gpu_create(&(WeirGpuOptions){.low_power = low_power,
+                                             .no_timestamps = !timestamps,
+                                             .parallelism = parallelism,
+                                             .parallelism_device = device});
 }
 
 WEIR_WEB(weir_web_gpu_memory)

@@ -1,10 +1,11 @@
 // From nothing to a ready device, without ever blocking:
 //
-//   weir_gpu_create --> adapter asked for --> device asked for --> ready --> lost
+//   weir_gpu_create --> adapter asked for --> device asked for --> measured --> ready --> lost
 //                            (callbacks, run by weir_gpu_poll)
 //
 // The first error is kept: what follows a lost device or a failed shader is only noise.
 #include "gpu/device.h"
+#include "gpu/parallelism.h"
 #include "gpu/platform.h"
 #include "gpu/solvers.h"
 
@@ -179,6 +180,9 @@ WeirGpu *weir_gpu_create(const WeirGpuOptions *options)
     WeirGpu *gpu = calloc(1, sizeof *gpu);
     if (!gpu) return NULL;
     if (options) gpu->options = *options;
+    if (gpu->options.parallelism_device)
+        snprintf(gpu->told_device, sizeof gpu->told_device, "%s", gpu->options.parallelism_device);
+    gpu->options.parallelism_device = NULL; // the caller's
     gpu->status = WEIR_PENDING;
     gpu->backend = (WeirGpuBackend){{.name = "gpu", .create_solver = weir_gpu_create_solver}, gpu};
     gpu->instance = weir_platform_create_instance();
@@ -205,6 +209,7 @@ void weir_gpu_destroy(WeirGpu *gpu)
     if (!gpu) return;
     gpu->destroyed = true;
     ++gpu->callbacks; // this one: the instance's release may run all others, and the last one frees
+    weir_parallelism_destroy(gpu->measuring);
     weir_pipelines_release(&gpu->pipelines);
     if (gpu->queue) wgpuQueueRelease(gpu->queue);
     if (gpu->device) {
@@ -220,6 +225,7 @@ void weir_gpu_destroy(WeirGpu *gpu)
 WeirStatus weir_gpu_poll(WeirGpu *gpu)
 {
     if (gpu->instance) wgpuInstanceProcessEvents(gpu->instance);
+    if (gpu->status == WEIR_OK && !weir_parallelism_poll(gpu)) return WEIR_PENDING;
     return gpu->status;
 }
 
@@ -248,7 +254,12 @@ bool weir_gpu_is_software(const WeirGpu *gpu)
 
 const WeirBackend *weir_gpu_backend(WeirGpu *gpu)
 {
-    return gpu->status == WEIR_OK ? &gpu->backend.base : NULL;
+    return gpu->status == WEIR_OK && gpu->parallelism > 0 ? &gpu->backend.base : NULL;
+}
+
+uint32_t weir_gpu_parallelism(const WeirGpu *gpu)
+{
+    return gpu->parallelism;
 }
 
 uint64_t weir_gpu_memory(const WeirGpu *gpu)

@@ -12,6 +12,8 @@ enum { WEIR_WORKGROUP_SIZE = 128 };
 // queue's memory.
 enum { WEIR_MAX_SUBMITS = 4 };
 
+typedef struct WeirParallelism WeirParallelism; // parallelism.h
+
 typedef struct WeirGpuBackend {
     WeirBackend base;
     WeirGpu *gpu;
@@ -28,9 +30,12 @@ struct WeirGpu {
     uint32_t max_groups; // workgroups of a dispatch in one dimension; tests make it small
     bool timestamps;     // timestamp queries may be used
     bool software;
-    bool destroyed;     // weir_gpu_destroy() was called; callbacks may still come
-    uint32_t callbacks; // that have not come yet
-    uint64_t memory;    // bytes of all buffers
+    uint32_t parallelism;       // threads that keep it busy; 0: not known yet
+    WeirParallelism *measuring; // that, or NULL
+    char told_device[128];      // options.parallelism_device
+    bool destroyed;             // weir_gpu_destroy() was called; callbacks may still come
+    uint32_t callbacks;         // that have not come yet
+    uint64_t memory;            // bytes of all buffers
     WeirPipelines pipelines;
     uint64_t submits[WEIR_MAX_SUBMITS]; // native.c: the last ones
     uint32_t submit_count;

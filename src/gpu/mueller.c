@@ -135,7 +135,8 @@ static void destroy(WeirSolver *base)
 
 static uint32_t choose(const WeirGpuSolver *solver, char settings[WEIR_SETTINGS_LENGTH])
 {
-    return weir_mueller_settings(&solver->wanted_parameters, &solver->wanted_constants, settings);
+    return weir_mueller_settings(solver->gpu, &solver->wanted_parameters, &solver->wanted_constants,
+                                 settings);
 }
 
 // Ids in order, and the positions rounded once.
@@ -219,7 +220,7 @@ static WeirStatus make(WeirMueller *solver, const WeirSolverSetup *setup, WeirMe
     if (!solver->host)
         return weir_fail(message, WEIR_ERROR_MEMORY, "no host memory for %llu particles",
                          (unsigned long long)count);
-    uint32_t threads = (uint32_t)count * weir_mueller_lanes((uint32_t)count);
+    uint32_t threads = (uint32_t)count * weir_mueller_lanes(common->gpu, (uint32_t)count);
     common->passes.groups[WEIR_ITEMS_SHARES] = weir_workgroups(threads);
     status = weir_gpu_solver_configure(&common->base, &setup->parameters, &setup->constants);
     if (status == WEIR_OK) status = set_state(&common->base, &setup->world->particles);

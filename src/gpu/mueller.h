@@ -54,10 +54,10 @@ extern const WeirMethodInfo weir_mueller_method;
 // Bytes of each buffer.
 void weir_mueller_sizes(const WeirConstants *constants, WeirBufferSize sizes[WEIR_MUELLER_BUFFER_TOTAL]);
 // Threads that share the neighbours of a particle: fewer particles do not fill a large device.
-uint32_t weir_mueller_lanes(uint32_t particle_count);
+uint32_t weir_mueller_lanes(const WeirGpu *gpu, uint32_t particle_count);
 // WGSL constants that follow from the parameters, and the passes that they need, by bit.
-uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConstants *constants,
-                               char settings[WEIR_SETTINGS_LENGTH]);
+uint32_t weir_mueller_settings(const WeirGpu *gpu, const WeirParameters *parameters,
+                               const WeirConstants *constants, char settings[WEIR_SETTINGS_LENGTH]);
 
 // What integrate leaves, as `struct Health` in shaders/common/fluid.wgsl.
 typedef struct WeirDeviceHealth {

@@ -1,6 +1,7 @@
 // The passes and buffers of `mueller`.
 #include "core/grid.h"
 #include "gpu/mueller.h"
+#include "gpu/parallelism.h"
 #include "gpu/sums.h"
 
 #include <stdio.h>
@@ -93,20 +94,21 @@ const WeirMethodInfo weir_mueller_method = {
     .parts = parts,
 };
 
-uint32_t weir_mueller_lanes(uint32_t particle_count)
+uint32_t weir_mueller_lanes(const WeirGpu *gpu, uint32_t particle_count)
 {
     // Measured on an H100: docs/performance.md, tries.
-    return particle_count <= 8192 ? 8 : particle_count <= 65536 ? 4 : 1;
+    double device = weir_parallelism_ratio(gpu);
+    return particle_count <= 8192 * device ? 8 : particle_count <= 65536 * device ? 4 : 1;
 }
 
-uint32_t weir_mueller_settings(const WeirParameters *parameters, const WeirConstants *constants,
-                               char settings[WEIR_SETTINGS_LENGTH])
+uint32_t weir_mueller_settings(const WeirGpu *gpu, const WeirParameters *parameters,
+                               const WeirConstants *constants, char settings[WEIR_SETTINGS_LENGTH])
 {
     bool tutorial = parameters->kernels == WEIR_KERNELS_TUTORIAL;
     snprintf(settings, WEIR_SETTINGS_LENGTH,
              "const TUTORIAL_KERNELS = %s;\nconst FOLDED_X = %s;\nconst LANES = %uu;\n",
              tutorial ? "true" : "false", weir_grid_folds_columns(constants) ? "true" : "false",
-             weir_mueller_lanes(constants->particle_count));
+             weir_mueller_lanes(gpu, constants->particle_count));
     uint32_t always = 1u << WEIR_MUELLER_INTEGRATE | 1u << WEIR_MUELLER_DIAGNOSE;
     uint32_t all_pairs = 1u << WEIR_MUELLER_DENSITY_ALL_PAIRS | 1u << WEIR_MUELLER_FORCES_ALL_PAIRS;
     if (parameters->search == WEIR_SEARCH_ALL_PAIRS) return all_pairs | always;

@@ -5,6 +5,7 @@
 // steps that are left when `until` is reached, or after a blow-up, find control.running at 0 and do nothing. Between
 // steps cell_count and the heads of cell_link are zero (scan_write and forces empty them).
 #include "gpu/wcsph.h"
+#include "gpu/parallelism.h"
 #include "gpu/platform.h"
 #include "gpu/solvers.h"
 
@@ -337,7 +338,8 @@ static void set_sort_groups(WeirWcsphGpu *solver, uint32_t scan_blocks)
     weir_pass_groups(common->gpu, 1, sorting[WEIR_SORT_ONE]);
     weir_pass_groups(common->gpu, groups, sorting[WEIR_SORT_LISTS]);
     weir_buffers_write(&common->buffers, WEIR_WCSPH_step_end, sizes, sizeof sizes);
-    solver->indirect = groups >= LEAST_INDIRECT && weir_platform_dispatches_indirectly();
+    solver->indirect = groups >= weir_parallelism_ratio(common->gpu) * LEAST_INDIRECT &&
+                       weir_platform_dispatches_indirectly();
 }
 
 static WeirStatus make(WeirWcsphGpu *solver, const WeirSolverSetup *setup, uint64_t most_list_bytes,

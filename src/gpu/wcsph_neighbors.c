@@ -1,10 +1,12 @@
 // How `wcsph` on the GPU finds neighbours: lists with a skin or walks over cells, and how often particles are sorted.
 #include "core/grid.h"
+#include "gpu/parallelism.h"
 #include "gpu/wcsph.h"
 
 #include <math.h>
 
-// What suits which fluid was measured on an H100 (docs/performance.md, tries).
+// What suits which fluid was measured on an H100 (docs/performance.md, tries). Numbers of particles, pairs and threads below are
+// for its parallelism, and go with a device's own.
 // Shares of the support radius. A list reaches two allowances beyond the support. Where chances to sort are seldom it is to
 // last for four uses: three steps of 0.027 in flow at Mach 0.1.
 static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowance = 0.1,
@@ -28,7 +30,7 @@ enum { LIST_BLOCK = 128 };
 static const double threads_per_neighbor = 2300.0, neighbors_per_lane = 9.0;
 static const uint32_t most_lanes = 8;
 // In 2D from so many particles on, few of which are near walls; sums over fluid alone take a tenth of the instructions less.
-static const uint32_t least_marked = 262144;
+static const double least_marked = 262144.0;
 
 static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
 {
@@ -102,11 +104,11 @@ static bool halves_rows(const WeirParameters *parameters, uint32_t dimension)
 
 // Few particles do not fill a large device, and a thread takes neighbours one after the other; but each thread more has
 // its own way to them, and its share to hand over. A processor that plays the device is full with one thread each.
-static uint32_t lanes_for(double particles, double neighbors, bool software)
+static uint32_t lanes_for(double particles, double neighbors, const WeirGpu *gpu)
 {
-    uint32_t lanes = 1, most = software ? 1 : most_lanes;
-    while (lanes < most && 2 * lanes * particles <= threads_per_neighbor * neighbors &&
-           2 * lanes * neighbors_per_lane <= neighbors)
+    uint32_t lanes = 1, most = gpu->software ? 1 : most_lanes;
+    double threads = weir_parallelism_ratio(gpu) * threads_per_neighbor * neighbors;
+    while (lanes < most && 2 * lanes * particles <= threads && 2 * lanes * neighbors_per_lane <= neighbors)
         lanes *= 2;
     return lanes;
 }
@@ -135,10 +137,11 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
 {
     double support = (double)(1u << constants->coordinate_bits);
     double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
+    double device = weir_parallelism_ratio(gpu);
     double pairs = constants->particle_count * neighbors;
-    traits->lanes = lanes_for(constants->particle_count, neighbors, gpu->software);
+    traits->lanes = lanes_for(constants->particle_count, neighbors, gpu);
     traits->share_threads = share_threads_for(constants->dimension, traits->lanes);
-    bool every = pairs > pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
+    bool every = pairs > device * pairs_for_every_step || parameters->stepping == WEIR_STEPPING_FIXED;
     traits->list_interval = every ? 1 : WEIR_EMISSION_INTERVAL;
     traits->list_life =
         constants->dimension == 3 && neighbors <= short_list_neighbors ? short_list_life : list_life;
@@ -148,7 +151,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
     if (!lists) traits->list_parts = 0;
     traits->one_pass = constants->dimension == 2 && !traits->moving_solids;
     traits->marks_mixed = lists && traits->solid_count > 0 && constants->dimension == 2 &&
-                          constants->particle_count >= least_marked;
+                          constants->particle_count >= device * least_marked;
     if (!lists) least = most = walk_allowance;
     traits->least_allowance = (uint32_t)(least * support);
     traits->most_allowance = (uint32_t)(most * support);

@@ -243,6 +243,26 @@ class Backends(RunTest):
         self.assertAlmostEqual(gpu["max_speed"], cpu["max_speed"], delta=0.02 * cpu["max_speed"])
         self.assertGreater(cpu["max_speed"], 0)
 
+    @unittest.skipUnless(WITH_GPU, "built without the GPU")
+    def test_what_was_measured_of_the_gpu_is_remembered(self):
+        cache = {"XDG_CACHE_HOME": str(self.folder / "new" / "cache")}
+        told = lambda: json.loads(self.weir("info", "--json", environment=cache)[0])["gpu"]
+        self.assertGreater(told()["parallelism"], 0, "a folder that cannot be made is no fault")
+        (self.folder / "new").mkdir()
+        first = told()
+        file = self.folder / "new" / "cache" / "weir" / "device.json"
+        kept = {"device": first["device"], "parallelism": first["parallelism"]}
+        self.assertEqual(json.loads(file.read_text()), kept)
+        file.write_text(json.dumps(dict(kept, parallelism=1024)))
+        self.assertEqual(told()["parallelism"], 1024)
+        for other in (json.dumps({"device": "another one", "parallelism": 1024}), "{", "[]", '{"device": 1}', ""):
+            file.write_text(other)
+            self.assertEqual(told(), first, other)
+            self.assertEqual(json.loads(file.read_text()), kept)
+        file.unlink()
+        self.run_json(self.scene_file(), "--steps", 2, "--backend", "gpu", "--parallelism", 256, environment=cache)
+        self.assertFalse(file.exists(), "what a user says is not remembered")
+
 
 class Scenes(RunTest):
     def test_every_scene_of_the_project_runs(self):

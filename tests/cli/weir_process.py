@@ -16,6 +16,7 @@ SANITIZED = os.environ.get("WEIR_SANITIZED", "0") == "1"
 SANITIZER_STATUS = 99
 ENVIRONMENT = dict(
     os.environ,
+    XDG_CACHE_HOME="/nonexistent/cache",  # nothing of a test stays on the machine
     ASAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:allocator_may_return_null=1",
     UBSAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:print_stacktrace=1",
     LSAN_OPTIONS=f"exitcode={SANITIZER_STATUS}:suppressions={SOURCE / 'tests/lsan.supp'}:print_suppressions=0",

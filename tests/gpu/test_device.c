@@ -114,7 +114,7 @@ static void a_shader_error_names_the_pass(void **state)
     WeirMessage message = {""};
     static const char wrong[] = "@compute @workgroup_size(1) fn density() { let x: u32 = 1.5; }";
     char settings[WEIR_SETTINGS_LENGTH];
-    weir_mueller_settings(&(WeirParameters){0}, &(WeirConstants){0}, settings);
+    weir_mueller_settings(gpu, &(WeirParameters){0}, &(WeirConstants){0}, settings);
     char *source = weir_pass_source(&weir_mueller_method, WEIR_WORKGROUP_SIZE, settings, NULL, wrong);
     WGPUBindGroupLayout layout =
         wgpuDeviceCreateBindGroupLayout(weir_gpu_wgpu_device(gpu), &(WGPUBindGroupLayoutDescriptor){0});

@@ -114,7 +114,7 @@ static void passes_match_with_any_number_of_lanes(void **state)
     (void)state;
     static const uint32_t counts[] = {1200, 9001, 66001}, lanes[] = {8, 4, 1};
     for (size_t n = 0; n < sizeof counts / sizeof counts[0]; ++n) {
-        assert_int_equal(weir_mueller_lanes(counts[n]), lanes[n]);
+        assert_int_equal(weir_mueller_lanes(gpu, counts[n]), lanes[n]);
         check_random_state(&cases[0], counts[n], 0, 1, 0.5);
     }
 }

@@ -1,5 +1,8 @@
 // What of a scene a graphics card shows in real time: water or plain particles, and how many of them. Measured in the first
 // seconds of a run, kept for the next visit. So a page shows slow motion for a moment once, and not at all when it comes back.
+// Beside it, how many threads keep the card busy.
+
+import type { KnownDevice } from './weir.ts';
 
 const settleMs = 1200; // of a run, in which the pace finds its steps
 const windowMs = 2000;
@@ -48,7 +51,7 @@ export class RunRate {
 
 type Store = Pick<Storage, 'getItem' | 'setItem'>;
 
-// What is known of cards: numbers of particles by scene, and which ones are too slow for water.
+// What is known of cards: numbers of particles by scene, which ones are too slow for water, and what was measured of the last one.
 export class KnownCards {
   readonly #store: Store | null;
 
@@ -60,6 +63,16 @@ export class KnownCards {
   recall(card: string, scene: string): number {
     const known = Number(this.#read(particlesKey(card, scene)));
     return Number.isFinite(known) && known >= 1 ? known : 0;
+  }
+
+  // The card of the last visit, as it was measured then.
+  device(): KnownDevice {
+    const [parallelism = '', device = ''] = this.#read(deviceKey).split(/ (.*)/s);
+    const threads = Number(parallelism);
+    return Number.isInteger(threads) && threads > 0 ? { device, parallelism: threads } : { device: '', parallelism: 0 };
+  }
+  noteDevice({ device, parallelism }: KnownDevice): void {
+    this.#keep(deviceKey, `${parallelism} ${device}`);
   }
 
   drawsWater(card: string): boolean {
@@ -96,6 +109,7 @@ export class KnownCards {
 }
 
 const particlesKey = (card: string, scene: string): string => `weir.particles ${scene} ${card}`;
+const deviceKey = 'weir.device';
 const plainKey = (card: string): string => `weir.water ${card}`;
 
 // null where a page may keep nothing.

@@ -2,6 +2,7 @@
 import type { Engine, FaultHandler } from './engine.ts';
 import { GpuEngine } from './engine_gpu.ts';
 import { MainEngine } from './engine_main.ts';
+import { KnownCards, pageStore } from './real_time.ts';
 import { WorkerEngine } from './engine_worker.ts';
 import type { Weir } from './weir.ts';
 
@@ -25,9 +26,11 @@ const noAnswer = (): Promise<never> =>
 
 export async function startGpu(setup: EngineSetup, allowSoftware: boolean): Promise<GpuEngine> {
   if (!navigator.gpu) throw new Error('This browser has no WebGPU.');
-  const gpu = setup.weir.createGpu();
+  const cards = new KnownCards(pageStore());
+  const gpu = setup.weir.createGpu({ known: cards.device() });
   try {
     await Promise.race([gpu.ready(), noAnswer()]);
+    cards.noteDevice(gpu);
     if (gpu.isSoftware && !allowSoftware) {
       throw new Error(`WebGPU has only a software adapter here, ${gpu.device}.`);
     }

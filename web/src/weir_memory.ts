@@ -20,7 +20,7 @@ type Call = (...values: number[]) => number;
 
 type Name =
   | 'weir_gpu_backend' | 'weir_gpu_destroy' | 'weir_gpu_device' | 'weir_gpu_error' | 'weir_gpu_is_software'
-  | 'weir_gpu_poll' | 'weir_gpu_wgpu_device' | 'weir_scene_check' | 'weir_scene_copy' | 'weir_scene_create'
+  | 'weir_gpu_parallelism' | 'weir_gpu_poll' | 'weir_gpu_wgpu_device' | 'weir_scene_check' | 'weir_scene_copy' | 'weir_scene_create'
   | 'weir_scene_destroy' | 'weir_scene_dimension' | 'weir_scene_error' | 'weir_scene_get_parameter'
   | 'weir_scene_method' | 'weir_scene_particle_count' | 'weir_scene_refuse' | 'weir_scene_set_boolean' | 'weir_scene_set_number'
   | 'weir_scene_set_numbers' | 'weir_scene_set_string' | 'weir_scene_stable_time_step' | 'weir_scene_title'

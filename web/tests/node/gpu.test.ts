@@ -347,6 +347,40 @@ test('no WebGPU, no adapter, no device: a message each', async () => {
   assert.equal(refusing.liveGpuObjects, 0);
 });
 
+// A card to whom looks at its name: devices that a processor plays are not measured.
+async function cardAdapter(): Promise<GPUAdapter> {
+  const adapter = await browser.requestAdapter();
+  return Object.create(adapter as object, {
+    limits: { get: () => adapter?.limits }, features: { get: () => adapter?.features },
+    info: { get: () => ({ vendor: 'vendor', architecture: 'architecture-7', device: '', description: '' }) },
+    requestDevice: { value: (descriptor: GPUDeviceDescriptor) => adapter?.requestDevice(descriptor) },
+  }) as GPUAdapter;
+}
+
+test('how many threads keep a card busy is measured once', async () => {
+  assert.equal(gpu.parallelism, 65536, 'of a software adapter');
+  const one = await Weir.load(bytes, { gpu: { requestAdapter: cardAdapter } as unknown as GPU });
+  const first = one.createGpu();
+  assert.equal(first.parallelism, 0);
+  await first.ready();
+  assert.ok(!first.isSoftware);
+  assert.ok(first.parallelism >= 256 && first.parallelism < 65536, `${first.parallelism} threads`);
+  first.destroy();
+  const told = one.createGpu({ known: { device: 'vendor architecture-7', parallelism: 1024 } });
+  await told.ready();
+  assert.equal(told.parallelism, 1024);
+  told.destroy();
+  const early = one.createGpu();
+  while (early.nativeDevice === null) {
+    early.poll();
+    await nextTurn();
+  }
+  early.poll(); // measures now
+  early.destroy();
+  for (let turn = 0; turn < 50; turn++) await nextTurn();
+  assert.equal(one.liveGpuObjects, 0);
+});
+
 test('a GPU that is destroyed while it starts leaves nothing behind', async () => {
   const other = await Weir.load(bytes, { gpu: browser });
   for (let turns = 0; turns < 12; turns++) {

@@ -62,6 +62,16 @@ test('slow motion is remembered by card and scene, and a card with time to spare
   assert.ok(known.recall('card', 'dam') > fewer);
 });
 
+test('what was measured of the last card is remembered with its name', () => {
+  const store = memory();
+  const known = new KnownCards(store);
+  assert.deepEqual(known.device(), { device: '', parallelism: 0 });
+  known.noteDevice({ device: 'vendor architecture-7', parallelism: 4096 });
+  assert.deepEqual(new KnownCards(store).device(), { device: 'vendor architecture-7', parallelism: 4096 });
+  store.setItem('weir.device', '-5 vendor');
+  assert.deepEqual(known.device(), { device: '', parallelism: 0 });
+});
+
 test('where the steps of a frame fit, drawing is what is slow', () => {
   assert.ok(stepsFit(0.4, 0.19, 16.7)); // 8 ms of 16.7
   assert.ok(!stepsFit(0.4, 0.3, 16.7));
@@ -79,5 +89,7 @@ test('a store that is missing, full or broken is no fault', () => {
     assert.equal(known.recall('card', 'dam'), 0);
     assert.ok(known.note('card', 'dam', 70_000, 0.3, 3) > 0);
     known.noteTooSlowForWater('card');
+    known.noteDevice({ device: 'card', parallelism: 256 });
+    assert.equal(known.device().parallelism, 0);
   }
 });
