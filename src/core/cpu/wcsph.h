@@ -9,8 +9,13 @@
 
 // Particles of one piece of work: small enough to balance threads, large enough to hide the hand-over.
 enum { WEIR_WCSPH_CHUNK = 512, WEIR_WCSPH_CELL_CHUNK = 4096 };
-// Numbers per solid particle in solid_force.
-enum { WEIR_WCSPH_SOLID_FORCES = 8 };
+
+// On a particle of a solid.
+typedef struct WeirWcsphSolidForce {
+    float fluid[3], contact[3]; // N, by the fluid and by other solids
+    float wetted,
+        pressed; // kg of fluid around it, and that contact would move (docs/wcsph.md, "Light bodies", "Contact of solids")
+} WeirWcsphSolidForce;
 
 // Between steps all of a particle; vectors have three arrays also in 2D.
 typedef struct WeirWcsphParticles {
@@ -86,10 +91,8 @@ typedef struct WeirWcsph {
     float *bulk;       // by solid: weir_solid_bulk()
     float *
         seen; // 3 per solid particle, with walls_by_pair: the velocity that fluid sees, of the step before, m/s
-    // WEIR_WCSPH_SOLID_FORCES per solid particle: force of the fluid and of contact, N; mass of the fluid around it, and of what
-    // contact would move, kg
-    float *solid_force;
-    bool forces_wanted; // a read asks for the forces on fixed and driven solids too
+    WeirWcsphSolidForce *solid_force; // by solid particle
+    bool forces_wanted;               // a read asks for the forces on fixed and driven solids too
     bool has_emitters, has_moving_solids, has_free_bodies;
     bool walls_by_pair;         // in 2D where no solid moves: WeirWcsphData
     bool keeps_seen;            // walls leaves what fluid sees for the next step: not in a read

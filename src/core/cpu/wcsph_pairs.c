@@ -114,13 +114,13 @@ INLINE WeirLanes kernel_shape(WeirLanes s, Variant variant)
 {
     if (variant.kernel == WEIR_KERNEL_CUBIC) {
         WeirLanes q = s * 2.0f, far = rest_to(2.0f, q), near = rest_to(1.0f, q);
-        return (far * far * far * 0.25f - near * near * near) * 0.25f;
+        return (far * far * far * 0.25f - near * near * near) / shape_unit;
     }
     if (variant.kernel == WEIR_KERNEL_QUINTIC) {
         WeirLanes q = s * 3.0f, a = rest_to(3.0f, q), b = rest_to(2.0f, q), c = rest_to(1.0f, q);
-        return (lanes_power4(a) * a - lanes_power4(b) * b * 6.0f + lanes_power4(c) * c * 15.0f) * 0.25f;
+        return (lanes_power4(a) * a - lanes_power4(b) * b * 6.0f + lanes_power4(c) * c * 15.0f) / shape_unit;
     }
-    return lanes_power4(rest_to(1.0f, s)) * (s + 0.25f);
+    return lanes_power4(rest_to(1.0f, s)) * (s + 1.0f / shape_unit);
 }
 
 // F^ at s.

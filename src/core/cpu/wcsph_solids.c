@@ -197,9 +197,9 @@ static float contact_at(const WeirWcsph *solver, uint32_t i, float force[3])
     return pressed;
 }
 
-static float *force_on(const WeirWcsph *solver, uint32_t id)
+static WeirWcsphSolidForce *force_on(const WeirWcsph *solver, uint32_t id)
 {
-    return solver->solid_force + WEIR_WCSPH_SOLID_FORCES * (size_t)(id - solver->constants.first_solid);
+    return &solver->solid_force[id - solver->constants.first_solid];
 }
 
 static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
@@ -209,31 +209,36 @@ static void particle_forces_chunk(void *context, uint32_t begin, uint32_t end)
     for (uint32_t i = begin; i < end; ++i) {
         if (data->needs_force[i] == 0.0f) continue;
         float mass = solver->constants.particle_mass;
-        float *force = force_on(solver, solver->sorted.id[i]);
-        for (int axis = 0; axis < 3; ++axis) force[axis] = mass * data->acceleration[axis][i];
-        force[6] = mass * data->wetted[i];
+        WeirWcsphSolidForce *force = force_on(solver, solver->sorted.id[i]);
+        for (int axis = 0; axis < 3; ++axis) force->fluid[axis] = mass * data->acceleration[axis][i];
+        force->wetted = mass * data->wetted[i];
         if (solid_of(solver, solver->sorted.group[i])->kind == WEIR_SOLID_FREE)
-            force[7] = contact_at(solver, i, force + 3);
+            force->pressed = contact_at(solver, i, force->contact);
     }
 }
 
-// Sum of a column of the particles' forces: 6, the fluid that a free body drags along (docs/wcsph.md, "Light bodies"); 7, what
-// contact would move ("Contact of solids").
-static float mass_of(const WeirWcsph *solver, const WeirSolid *solid, int column)
+static float wetted_mass(const WeirWcsph *solver, const WeirSolid *solid)
 {
     double sum = 0.0;
-    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)[column];
+    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)->wetted;
     return (float)sum;
 }
 
-// Sums columns [0, 3) (fluid) or [3, 6) (contact) of the particles' forces in order of id, in double precision.
-static void sum_forces(const WeirWcsph *solver, uint32_t n, int column, float force[3], float torque[3])
+static float pressed_mass(const WeirWcsph *solver, const WeirSolid *solid)
+{
+    double sum = 0.0;
+    for (uint32_t k = 0; k < solid->count; ++k) sum += force_on(solver, solid->first + k)->pressed;
+    return (float)sum;
+}
+
+// Sums the particles' forces, of contact or of the fluid, in order of id, in double precision.
+static void sum_forces(const WeirWcsph *solver, uint32_t n, bool of_contact, float force[3], float torque[3])
 {
     const WeirSolid *solid = &solver->world.solids[n];
     double total[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
     for (uint32_t k = 0; k < solid->count; ++k) {
         uint32_t id = solid->first + k;
-        const float *f = force_on(solver, id) + column;
+        const float *f = of_contact ? force_on(solver, id)->contact : force_on(solver, id)->fluid;
         double place[3];
         float v[3], arm[3], turn[3];
         weir_solid_point(&solver->solids[n], local_of(solver, id), place, v);
@@ -255,7 +260,7 @@ void weir_wcsph_sum_solid_forces(WeirWcsph *solver)
     weir_pool_run(solver->pool, solver->active, WEIR_WCSPH_CHUNK, particle_forces_chunk, solver);
     for (uint32_t n = 0; n < solver->world.solid_count; ++n) {
         if (solver->world.solids[n].kind == WEIR_SOLID_FREE || solver->forces_wanted)
-            sum_forces(solver, n, 0, solver->solids[n].force, solver->solids[n].torque);
+            sum_forces(solver, n, false, solver->solids[n].force, solver->solids[n].torque);
     }
 }
 
@@ -269,19 +274,19 @@ void weir_wcsph_solids(WeirWcsph *solver)
         WeirSolidState *state = &solver->solids[n];
         if (solver->world.solids[n].kind != WEIR_SOLID_FREE) continue;
         const WeirSolid *solid = &solver->world.solids[n];
-        float force[3], torque[3], pressed = mass_of(solver, solid, 7);
+        float force[3], torque[3], pressed = pressed_mass(solver, solid);
         float share = pressed > solid->mass ? solid->mass / pressed : 1.0f;
-        sum_forces(solver, n, 3, force, torque);
+        sum_forces(solver, n, true, force, torque);
         for (int axis = 0; axis < 3; ++axis) {
             state->force[axis] += share * force[axis];
             state->torque[axis] += share * torque[axis];
         }
-        state->force[3] = mass_of(solver, solid, 6);
+        state->force[3] = wetted_mass(solver, solid);
     }
     weir_solids_kick(&solver->world, solver->parameters.gravity, solver->clock.time, solver->dt,
                      solver->solids);
     for (uint32_t n = 0; n < count; ++n) {
         if (solver->world.solids[n].kind == WEIR_SOLID_FREE)
-            sum_forces(solver, n, 0, solver->solids[n].force, solver->solids[n].torque);
+            sum_forces(solver, n, false, solver->solids[n].force, solver->solids[n].torque);
     }
 }

@@ -108,7 +108,7 @@ bool weir_wcsph_allocate(WeirWcsph *solver, const WeirSolverSetup *setup)
     solver->local = calloc(3 * solid_particles + 1, sizeof *solver->local);
     solver->bulk = calloc(solids, sizeof *solver->bulk);
     solver->seen = calloc(3 * solid_particles + 1, sizeof *solver->seen);
-    solver->solid_force = calloc(WEIR_WCSPH_SOLID_FORCES * solid_particles + 1, sizeof *solver->solid_force);
+    solver->solid_force = calloc(solid_particles + 1, sizeof *solver->solid_force);
     return solver->solids && solver->snapshot.solids && solver->emitters && solver->vacancy &&
            solver->local && solver->bulk && solver->seen && solver->solid_force;
 }
