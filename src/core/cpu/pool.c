@@ -3,6 +3,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #if defined(__wasm__)
 
@@ -39,13 +40,27 @@ void weir_pool_run(WeirPool *pool, uint32_t items, uint32_t chunk, WeirPoolBody 
 #else
 
 #include <pthread.h>
+#include <stdalign.h>
 #include <unistd.h>
 
-enum { MAX_THREADS = 256 };
+enum { MAX_THREADS = 256, CACHE_LINE = 64 };
+
+// A thread's own part of a loop: loop after loop the same items, which its core's cache still has. Whoever is done with his
+// goes on with the others'.
+typedef struct Share {
+    alignas(CACHE_LINE) atomic_uint next; // first item that nobody has taken
+    uint32_t end;
+} Share;
+
+typedef struct Worker {
+    WeirPool *pool;
+    uint32_t number; // 0 is the caller
+} Worker;
 
 struct WeirPool {
     uint32_t threads; // the caller included
     pthread_t thread[MAX_THREADS];
+    Worker worker[MAX_THREADS];
     pthread_mutex_t mutex;
     pthread_cond_t work, done;
     atomic_uint round;   // of loops; a worker that sees a new one joins it
@@ -53,17 +68,33 @@ struct WeirPool {
     atomic_bool stop;
     WeirPoolBody *body;
     void *context;
-    uint32_t items, chunk;
-    atomic_uint next; // first item that nobody has taken
+    uint32_t chunk;
+    Share share[MAX_THREADS];
 };
 
-static void take_chunks(WeirPool *pool)
+static void take_chunks(WeirPool *pool, uint32_t number)
 {
-    for (;;) {
-        uint32_t begin = atomic_fetch_add_explicit(&pool->next, pool->chunk, memory_order_relaxed);
-        if (begin >= pool->items) return;
-        uint32_t left = pool->items - begin;
-        pool->body(pool->context, begin, begin + (left < pool->chunk ? left : pool->chunk));
+    for (uint32_t n = 0; n < pool->threads; ++n) {
+        Share *share = &pool->share[(number + n) % pool->threads];
+        // Looked at first: asking for an item that is not there would take the line from whoever works on that share.
+        while (atomic_load_explicit(&share->next, memory_order_relaxed) < share->end) {
+            uint32_t begin = atomic_fetch_add_explicit(&share->next, pool->chunk, memory_order_relaxed);
+            if (begin >= share->end) break;
+            uint32_t left = share->end - begin;
+            pool->body(pool->context, begin, begin + (left < pool->chunk ? left : pool->chunk));
+        }
+    }
+}
+
+// Whole chunks each.
+static void share_out(WeirPool *pool, uint32_t items)
+{
+    uint64_t chunks = ((uint64_t)items + pool->chunk - 1) / pool->chunk;
+    for (uint32_t n = 0; n < pool->threads; ++n) {
+        uint64_t begin = chunks * n / pool->threads * pool->chunk,
+                 end = chunks * (n + 1) / pool->threads * pool->chunk;
+        atomic_store_explicit(&pool->share[n].next, (uint32_t)begin, memory_order_relaxed);
+        pool->share[n].end = end < items ? (uint32_t)end : items;
     }
 }
 
@@ -104,13 +135,14 @@ static void wait_for_workers(WeirPool *pool)
     pthread_mutex_unlock(&pool->mutex);
 }
 
-static void *worker(void *argument)
+static void *work(void *argument)
 {
-    WeirPool *pool = argument;
+    const Worker *self = argument;
+    WeirPool *pool = self->pool;
     for (uint32_t seen = 0;; ++seen) {
         wait_for_round(pool, seen);
         if (atomic_load(&pool->stop)) return NULL;
-        take_chunks(pool);
+        take_chunks(pool, self->number);
         if (atomic_fetch_sub_explicit(&pool->running, 1, memory_order_acq_rel) == 1) {
             pthread_mutex_lock(&pool->mutex);
             pthread_cond_signal(&pool->done);
@@ -121,8 +153,9 @@ static void *worker(void *argument)
 
 WeirPool *weir_pool_create(uint32_t threads)
 {
-    WeirPool *pool = calloc(1, sizeof *pool);
+    WeirPool *pool = aligned_alloc(alignof(WeirPool), sizeof *pool);
     if (!pool) return NULL;
+    memset(pool, 0, sizeof *pool);
     if (threads == 0) {
         long cores = sysconf(_SC_NPROCESSORS_ONLN);
         threads = cores > 0 ? (uint32_t)cores : 1;
@@ -132,7 +165,9 @@ WeirPool *weir_pool_create(uint32_t threads)
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     pool->threads = 1;
-    while (pool->threads < threads && pthread_create(&pool->thread[pool->threads], NULL, worker, pool) == 0) {
+    for (uint32_t n = 1; n < threads; ++n) {
+        pool->worker[n] = (Worker){pool, n};
+        if (pthread_create(&pool->thread[n], NULL, work, &pool->worker[n]) != 0) break;
         ++pool->threads;
     }
     return pool;
@@ -167,14 +202,13 @@ void weir_pool_run(WeirPool *pool, uint32_t items, uint32_t chunk, WeirPoolBody 
     pthread_mutex_lock(&pool->mutex);
     pool->body = body;
     pool->context = context;
-    pool->items = items;
     pool->chunk = chunk;
-    atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
+    share_out(pool, items);
     atomic_store_explicit(&pool->running, pool->threads - 1, memory_order_relaxed);
     atomic_fetch_add_explicit(&pool->round, 1, memory_order_release);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->mutex);
-    take_chunks(pool);
+    take_chunks(pool, 0);
     wait_for_workers(pool);
 }
 
