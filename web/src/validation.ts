@@ -3,6 +3,7 @@
 import { drawChart, type Curve } from './chart.ts';
 import { CpuPicture } from './engine_cpu.ts';
 import { formatNumber, niceCeil } from './format.ts';
+import { KnownCards, pageStore } from './real_time.ts';
 import { GateKind, resolutions, validationCases, type CaseInfo, type CurveData, type Gate, type Resolution } from './validation_api.ts';
 import type { FromValidator, Solver, ToValidator } from './validation_worker.ts';
 import { Camera, watchSize } from './view.ts';
@@ -46,7 +47,7 @@ class ValidationPage {
     this.#worker = new Worker(new URL('./validation_worker.ts', import.meta.url), { type: 'module', name: 'validation' });
     this.#worker.onmessage = (event: MessageEvent<FromValidator>) => this.#receive(event.data);
     this.#worker.onerror = (event) => this.#say(event.message || 'the worker could not be loaded');
-    this.#send({ type: 'load', module });
+    this.#send({ type: 'load', module, known: new KnownCards(pageStore()).device() });
     this.#listCases();
     this.#listResolutions();
     watchSize(element('stage'), (width, height, ratio) => {

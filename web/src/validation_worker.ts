@@ -4,12 +4,12 @@ import { fillPoints, looksOf } from './cpu_runner.ts';
 import { floatsPerParticle } from './points.ts';
 import type { SceneDocument } from './scene_document.ts';
 import { Validation, type CurveData, type Gate, type Resolution, type RunInfo } from './validation_api.ts';
-import { ColorBy, Field, Weir, type Gpu, type Scene, type Sim } from './weir.ts';
+import { ColorBy, Field, Weir, type Gpu, type KnownDevice, type Scene, type Sim } from './weir.ts';
 
 export type Solver = 'gpu' | 'cpu';
 
 export type ToValidator =
-  | { type: 'load'; module: WebAssembly.Module }
+  | { type: 'load'; module: WebAssembly.Module; known: KnownDevice }
   | { type: 'start'; job: number; caseIndex: number; resolution: Resolution; solver: Solver }
   | { type: 'go'; job: number; colorBy: ColorBy } // one slice
   | { type: 'stop' };
@@ -167,13 +167,14 @@ class Job {
 
 type Engine = { weir: Weir; gpu: Gpu | null };
 
-async function load(module: WebAssembly.Module): Promise<Engine> {
+async function load(module: WebAssembly.Module, known: KnownDevice): Promise<Engine> {
   const weir = await Weir.load(module);
   if (!navigator.gpu) {
     send({ type: 'ready', job: 0, gpu: '', isSoftware: false });
     return { weir, gpu: null };
   }
-  const gpu = weir.createGpu({ timestamps: false });
+  // Times are wanted for the device alone, if the page does not know it yet.
+  const gpu = weir.createGpu({ known, timestamps: known.parallelism === 0 });
   const late = new Promise<never>((_, reject) => setTimeout(() => reject(new Error('no answer')), answerMs));
   try {
     await Promise.race([gpu.ready(), late]);
@@ -191,7 +192,7 @@ let current: { number: number; job: Job } | null = null;
 
 async function act(message: ToValidator): Promise<void> {
   if (message.type === 'load') {
-    engine = load(message.module);
+    engine = load(message.module, message.known);
     await engine;
   } else if (message.type === 'start' || message.type === 'stop') {
     current?.job.destroy();
