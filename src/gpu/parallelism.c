@@ -14,7 +14,7 @@ static const uint32_t tuned_parallelism = 65536;
 static const uint32_t usual_parallelism = 16384;
 static const uint32_t least_parallelism = 256, most_parallelism = 1u << 22;
 static const double saturated = 3.0; // times as long as one workgroup: all that is added waits
-enum { FIRST_GROUPS = 8 };
+enum { FIRST_GROUPS = 8, MOST_JUDGED = 8 };
 // Of the chain. Browsers tell times in steps of 0.1 ms.
 enum { FINE_TURNS = 1 << 14, COARSE_TURNS = 1 << 17 };
 
@@ -26,7 +26,7 @@ struct WeirParallelism {
     WGPUBuffer chain;
     WeirProfile *profile;
     uint32_t groups;
-    bool repeats; // these were enough; now that the device has woken up they are measured again
+    uint32_t last, judged; // what so many threads told before, rounded; how often they told something
 };
 
 static const float chain_start[4] = {0.5f, 0.999f, 0.0f, 0.0f};
@@ -124,18 +124,21 @@ static WeirParallelism *begin(WeirGpu *gpu)
     return measuring;
 }
 
-// Threads, or 0 if more of them must be measured first.
+// Threads, or 0 if it must be measured again: with more of them, or because a device wakes up, or works for others too. Two
+// measurements are to agree.
 static double judge(WeirParallelism *measuring)
 {
     WeirPassTime times[2];
     bool is_told = weir_profile_times(measuring->profile, times, 2) == 2 && times[0].milliseconds > 0.0;
     if (!is_told) return usual_parallelism; // a device that was lost says so itself
     double ratio = times[1].milliseconds / times[0].milliseconds;
-    bool suffices = ratio >= saturated || 2 * measuring->groups > measuring->gpu->max_groups;
-    if (suffices && measuring->repeats) return (double)measuring->groups * WEIR_WORKGROUP_SIZE / ratio;
-    if (!suffices) measuring->groups *= 2;
-    measuring->repeats = suffices;
-    return 0.0;
+    if (ratio < saturated && 2 * measuring->groups <= measuring->gpu->max_groups) {
+        measuring->groups *= 2;
+        return 0.0;
+    }
+    uint32_t last = measuring->last;
+    measuring->last = weir_parallelism_rounded((double)measuring->groups * WEIR_WORKGROUP_SIZE / ratio);
+    return measuring->last == last || ++measuring->judged == MOST_JUDGED ? measuring->last : 0.0;
 }
 
 // What needs no measurement, or 0.
