@@ -1,11 +1,11 @@
 #include "backend.h"
-#include "known_device.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #if WEIR_WITH_GPU
+#include "known_device.h"
 
 static WeirStatus open_gpu(WeirCliBackend *backend, WeirCliDevice device, char *message, size_t message_size)
 {

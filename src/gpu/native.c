@@ -25,6 +25,14 @@ bool weir_platform_wait(WeirGpu *gpu)
     return true;
 }
 
+bool weir_platform_may_look(WeirGpu *gpu)
+{
+    // Recording a command tells of a loss.
+    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(gpu->device, NULL);
+    if (encoder) wgpuCommandEncoderRelease(encoder);
+    return gpu->status == WEIR_OK;
+}
+
 void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands)
 {
     uint64_t *slot = &gpu->submits[gpu->submit_count % WEIR_MAX_SUBMITS];

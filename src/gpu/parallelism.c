@@ -1,4 +1,5 @@
 #include "gpu/parallelism.h"
+#include "gpu/passes.h"
 #include "gpu/platform.h"
 #include "gpu/profile.h"
 
@@ -54,26 +55,13 @@ void weir_parallelism_destroy(WeirParallelism *measuring)
     free(measuring);
 }
 
-static WGPUComputePipeline make_pipeline(WeirGpu *gpu, WGPUBindGroupLayout bind_group_layout)
+static WGPUComputePipeline make_pipeline(WeirGpu *gpu, WGPUBindGroupLayout layout)
 {
     char source[4096];
     unsigned turns = weir_platform_can_wait() ? FINE_TURNS : COARSE_TURNS;
     snprintf(source, sizeof source, "const WORKGROUP_SIZE = %uu;\nconst TURNS = %uu;\n%s",
              (unsigned)WEIR_WORKGROUP_SIZE, turns, weir_wgsl_device_parallelism);
-    WGPUStringView label = weir_gpu_text("parallelism");
-    WGPUShaderSourceWGSL wgsl = {.chain.sType = WGPUSType_ShaderSourceWGSL, .code = weir_gpu_text(source)};
-    WGPUShaderModule module = wgpuDeviceCreateShaderModule(
-        gpu->device, &(WGPUShaderModuleDescriptor){.nextInChain = &wgsl.chain, .label = label});
-    WGPUPipelineLayout layout = wgpuDeviceCreatePipelineLayout(
-        gpu->device, &(WGPUPipelineLayoutDescriptor){
-                         .label = label, .bindGroupLayoutCount = 1, .bindGroupLayouts = &bind_group_layout});
-    WGPUComputePipeline pipeline = wgpuDeviceCreateComputePipeline(
-        gpu->device, &(WGPUComputePipelineDescriptor){.label = label,
-                                                      .layout = layout,
-                                                      .compute = {.module = module, .entryPoint = label}});
-    wgpuPipelineLayoutRelease(layout);
-    wgpuShaderModuleRelease(module);
-    return pipeline;
+    return weir_pass_pipeline(gpu, "parallelism", "parallelism", source, layout, NULL);
 }
 
 static void run_chain(const WeirParallelism *measuring, const char *pass, uint32_t groups,
@@ -142,36 +130,36 @@ static double judge(WeirParallelism *measuring)
 }
 
 // What needs no measurement, or 0.
-static double told(const WeirGpu *gpu)
+static uint32_t told(const WeirGpu *gpu)
 {
     bool is_meant = !gpu->told_device[0] || strcmp(gpu->told_device, gpu->name) == 0;
     if (is_meant && gpu->options.parallelism > 0) return gpu->options.parallelism;
     // Its threads are the host's few; but what large devices do is right there too, and tests see it so.
-    return gpu->software ? tuned_parallelism : 0.0;
+    return gpu->software ? tuned_parallelism : 0;
+}
+
+// Threads, or 0 while the measurement is under way.
+static double go_on(WeirGpu *gpu)
+{
+    if (!gpu->measuring) {
+        gpu->measuring = begin(gpu);
+        return gpu->measuring ? 0.0 : usual_parallelism;
+    }
+    weir_profile_poll(gpu->measuring->profile);
+    if (!weir_profile_ready(gpu->measuring->profile)) return 0.0;
+    double threads = judge(gpu->measuring);
+    if (threads == 0.0) measure(gpu->measuring);
+    return threads;
 }
 
 bool weir_parallelism_poll(WeirGpu *gpu)
 {
     if (gpu->parallelism > 0) return true;
-    if (told(gpu) > 0.0) {
-        gpu->parallelism = weir_parallelism_rounded(told(gpu));
-        return true;
-    }
-    bool begins = !gpu->measuring;
-    if (begins) gpu->measuring = begin(gpu);
-    WeirParallelism *measuring = gpu->measuring;
-    double threads = usual_parallelism;
-    if (measuring) {
-        weir_profile_poll(measuring->profile);
-        if (begins || !weir_profile_ready(measuring->profile)) return false;
-        threads = judge(measuring);
-    }
-    if (threads > 0.0) {
-        gpu->parallelism = weir_parallelism_rounded(threads);
-        weir_parallelism_destroy(measuring);
-        gpu->measuring = NULL;
-        return true;
-    }
-    measure(measuring);
-    return false;
+    double threads = told(gpu);
+    if (threads == 0.0) threads = go_on(gpu);
+    if (threads == 0.0) return false;
+    gpu->parallelism = weir_parallelism_rounded(threads);
+    weir_parallelism_destroy(gpu->measuring);
+    gpu->measuring = NULL;
+    return true;
 }

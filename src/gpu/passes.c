@@ -216,10 +216,10 @@ static void release_ingredients(const Ingredients *made)
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,
                                        WGPUBindGroupLayout layout, WeirReport *report)
 {
-    weir_report_begin(report);
+    if (report) weir_report_begin(report);
     Ingredients made = prepare_ingredients(gpu, name, label, source, layout);
     WGPUComputePipeline pipeline = wgpuDeviceCreateComputePipeline(gpu->device, &made.descriptor);
-    weir_report_end(report, label);
+    if (report) weir_report_end(report, label);
     release_ingredients(&made);
     return pipeline;
 }

@@ -103,7 +103,7 @@ void weir_pass_dispatch_indirect(const WeirPasses *passes, uint32_t pass, WGPUCo
 // (NULL for none), then `source`. NULL if memory runs out.
 char *weir_pass_source(const WeirMethodInfo *method, uint32_t threads, const char *settings,
                        const char *const *parts, const char *source);
-// Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`. NULL if
-// memory runs out.
+// Compiles `source` with the entry point `name` and the explicit `layout`; faults go to `report` as `label`, or if that is NULL
+// to the device. NULL if memory runs out.
 WGPUComputePipeline weir_pass_pipeline(WeirGpu *gpu, const char *name, const char *label, const char *source,
                                        WGPUBindGroupLayout layout, WeirReport *report);

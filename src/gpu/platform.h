@@ -10,6 +10,8 @@ bool weir_platform_can_wait(void);
 // Blocks until the queued work is done and its callbacks ran. Returns false, at once, where nothing
 // may block.
 bool weir_platform_wait(WeirGpu *gpu);
+// Whether bytes of a mapped buffer may be asked for: on a lost device that ends the process natively.
+bool weir_platform_may_look(WeirGpu *gpu);
 // Queues one command buffer; natively waits while too many are under way.
 void weir_platform_submit(WeirGpu *gpu, WGPUCommandBuffer commands);
 // With `trusted`, without run-time bounds checks where the platform can.

@@ -1,4 +1,5 @@
 #include "gpu/readback.h"
+#include "gpu/platform.h"
 
 #include <stdlib.h>
 
@@ -90,19 +91,11 @@ WeirReadbackState weir_readback_state(const WeirReadback *readback)
     return readback->state;
 }
 
-// A copy may have arrived before the device was lost, and wgpu-native ends the process where its bytes are asked for then.
-// Recording a command tells of the loss.
-static bool is_lost(WeirGpu *gpu)
-{
-    WGPUCommandEncoder encoder = wgpuDeviceCreateCommandEncoder(gpu->device, NULL);
-    if (encoder) wgpuCommandEncoderRelease(encoder);
-    return gpu->status != WEIR_OK;
-}
-
 const void *weir_readback_data(const WeirReadback *readback, uint32_t piece)
 {
     const Piece *from = &readback->pieces[piece];
-    if (readback->failed || is_lost(readback->gpu)) return NULL;
+    // It may have arrived before the device was lost.
+    if (readback->failed || !weir_platform_may_look(readback->gpu)) return NULL;
     return wgpuBufferGetConstMappedRange(from->buffer, 0, from->size);
 }
 

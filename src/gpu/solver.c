@@ -215,10 +215,8 @@ void weir_gpu_solver_submit_steps(WeirGpuSolver *solver, WGPUCommandEncoder enco
 uint32_t weir_steps_per_submit(const WeirGpuSolver *solver, double pairs)
 {
     double measured = weir_profile_step(solver->profile);
-    double steps =
-        measured > 0.0
-            ? milliseconds_per_submit / measured
-            : pairs_per_submit * (solver->gpu->software ? 0.01 : weir_parallelism_ratio(solver->gpu)) / pairs;
+    double device = solver->gpu->software ? 0.01 : weir_parallelism_ratio(solver->gpu);
+    double steps = measured > 0.0 ? milliseconds_per_submit / measured : device * pairs_per_submit / pairs;
     return steps < 1.0 ? 1 : steps > MAX_STEPS_PER_SUBMIT ? MAX_STEPS_PER_SUBMIT : (uint32_t)steps;
 }
 

@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-// What suits which fluid was measured on an H100 (docs/performance.md, tries). Numbers of particles, pairs and threads below are
-// for its parallelism, and go with a device's own.
+// What suits which fluid was measured on an H100 (docs/performance.md, tries). Numbers of particles, pairs and threads are for its
+// parallelism, and go with a device's own (parallelism.h).
+//
 // Shares of the support radius. A list reaches two allowances beyond the support. Where chances to sort are seldom it is to
 // last for four uses: three steps of 0.027 in flow at Mach 0.1.
 static const double least_allowance = 0.03, most_allowance = 0.08, seldom_allowance = 0.1,

@@ -21,14 +21,20 @@ static void the_nearest_power_of_four_counts(void **state)
         assert_int_equal(weir_parallelism_rounded(cases[n].threads), cases[n].rounded);
 }
 
-// As on a card: the driver's threads are few, but they are measured alike.
-static void a_device_is_measured(void **state)
+// To be measured like a card: the driver's threads are few, but they are measured alike.
+static WeirGpu *unmeasured(const WeirGpuOptions *options)
 {
-    (void)state;
-    WeirGpu *gpu = weir_test_gpu(NULL);
+    WeirGpu *gpu = weir_test_gpu(options);
     assert_true(weir_gpu_parallelism(gpu) > 0);
     gpu->software = false;
     gpu->parallelism = 0;
+    return gpu;
+}
+
+static void a_device_is_measured(void **state)
+{
+    (void)state;
+    WeirGpu *gpu = unmeasured(NULL);
     assert_null(weir_gpu_backend(gpu));
     assert_int_equal(weir_gpu_poll(gpu), WEIR_PENDING);
     assert_int_equal(weir_gpu_wait(gpu), WEIR_OK);
@@ -41,9 +47,7 @@ static void a_device_is_measured(void **state)
 static void a_measurement_may_be_given_up(void **state)
 {
     (void)state;
-    WeirGpu *gpu = weir_test_gpu(NULL);
-    gpu->software = false;
-    gpu->parallelism = 0;
+    WeirGpu *gpu = unmeasured(NULL);
     assert_int_equal(weir_gpu_poll(gpu), WEIR_PENDING);
     weir_gpu_destroy(gpu);
 }
@@ -51,9 +55,7 @@ static void a_measurement_may_be_given_up(void **state)
 static void a_device_lost_while_it_is_measured_is_reported(void **state)
 {
     (void)state;
-    WeirGpu *gpu = weir_test_gpu(NULL);
-    gpu->software = false;
-    gpu->parallelism = 0;
+    WeirGpu *gpu = unmeasured(NULL);
     assert_int_equal(weir_gpu_poll(gpu), WEIR_PENDING);
     wgpuDeviceDestroy(weir_gpu_wgpu_device(gpu));
     WeirStatus status = WEIR_PENDING;
@@ -67,9 +69,7 @@ static void a_device_lost_while_it_is_measured_is_reported(void **state)
 static void without_times_there_is_a_guess(void **state)
 {
     (void)state;
-    WeirGpu *gpu = weir_test_gpu(&(WeirGpuOptions){.no_timestamps = true});
-    gpu->software = false;
-    gpu->parallelism = 0;
+    WeirGpu *gpu = unmeasured(&(WeirGpuOptions){.no_timestamps = true});
     assert_int_equal(weir_gpu_poll(gpu), WEIR_OK);
     assert_int_equal(weir_gpu_parallelism(gpu), 16384);
     weir_gpu_destroy(gpu);

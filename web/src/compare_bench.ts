@@ -2,6 +2,7 @@
 import { benchScene, type Measured } from './all_pairs.ts';
 import type { Solver } from './compare_rows.ts';
 import type { Done, Job } from './compare_worker.ts';
+import { KnownCards, pageStore } from './real_time.ts';
 import { Field, Status, WeirError, type Gpu, type Sim, type Weir } from './weir.ts';
 
 type Task = { task: 'measure'; seconds: number } | { task: 'positions'; steps: number; viscosity: number };
@@ -22,7 +23,7 @@ export class Bench {
   // The WebGPU adapter's name; throws if there is none.
   async startGpu(): Promise<string> {
     if (!navigator.gpu) throw new Error('no WebGPU in this browser');
-    this.#gpu ??= this.#weir.createGpu();
+    this.#gpu ??= this.#weir.createGpu({ known: new KnownCards(pageStore()).device() });
     await this.#gpu.ready();
     return this.#gpu.device;
   }

@@ -2,8 +2,8 @@
 import type { Engine, FaultHandler } from './engine.ts';
 import { GpuEngine } from './engine_gpu.ts';
 import { MainEngine } from './engine_main.ts';
-import { KnownCards, pageStore } from './real_time.ts';
 import { WorkerEngine } from './engine_worker.ts';
+import { KnownCards, pageStore } from './real_time.ts';
 import type { Weir } from './weir.ts';
 
 export type Backend = 'auto' | 'gpu' | 'cpu';

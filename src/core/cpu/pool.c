@@ -135,7 +135,7 @@ static void wait_for_workers(WeirPool *pool)
     pthread_mutex_unlock(&pool->mutex);
 }
 
-static void *work(void *argument)
+static void *run_worker(void *argument)
 {
     const Worker *self = argument;
     WeirPool *pool = self->pool;
@@ -167,7 +167,7 @@ WeirPool *weir_pool_create(uint32_t threads)
     pool->threads = 1;
     for (uint32_t n = 1; n < threads; ++n) {
         pool->worker[n] = (Worker){pool, n};
-        if (pthread_create(&pool->thread[n], NULL, work, &pool->worker[n]) != 0) break;
+        if (pthread_create(&pool->thread[n], NULL, run_worker, &pool->worker[n]) != 0) break;
         ++pool->threads;
     }
     return pool;
