@@ -37,6 +37,12 @@ fn share_of(i: u32, lane: u32) -> Sums {
     return sum_pairs(i, place_of(coordinate_at(reading_start() + i)), Own(0u), lane, opening_of(i, lane));
 }
 
+// Friction over that of laminar flow, of fluid that moves by `slip` m/s along a wall (docs/wcsph.md).
+fn turbulence(slip: f32) -> f32 {
+    let root = sqrt(slip * constants.turbulent_slip);
+    return max(root * sqrt(root), 1.0);
+}
+
 // Motion as fluid sees it, of the particle in slot i, by its first thread, the workgroup's thread `local`. `velocity` and
 // `acceleration` of its solid there.
 fn fluid_motion(i: u32, own: vec4i, velocity: vec3f, acceleration: vec3f, local: u32) -> vec4f {
@@ -45,7 +51,8 @@ fn fluid_motion(i: u32, own: vec4i, velocity: vec3f, acceleration: vec3f, local:
     var pressure = 0.0;
     if sums.weight > 1e-12 {
         let inverse = 1.0 / sums.weight;
-        seen = 2.0 * velocity - wide(sums.mean * inverse);
+        let slip = wide(sums.mean * inverse) - velocity;
+        seen = velocity + (1.0 - 2.0 * turbulence(length(slip))) * slip;
         let fall = parameters.gravity.xyz - acceleration;
         pressure = max(sums.pressure * inverse + dot(fall, wide(sums.moment * (inverse * constants.quantum))), 0.0);
     }

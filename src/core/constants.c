@@ -4,6 +4,7 @@
 #include "core/scene_shape.h"
 #include "core/smoothing.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -214,9 +215,9 @@ static Lattice densest_lattice(double spacing, uint32_t dimension)
 }
 
 // Over the sites: V W with the middle included and V (-F) r^2 / d, which are 1 but for the kernel's quadrature error; and
-// V (1 - r / R) r^2 / d.
+// V (1 - r / R) r^2 / d; and V (-F) |y|, 1/m.
 typedef struct LatticeSums {
-    double filling, laplacian, compact;
+    double filling, laplacian, compact, crossing;
 } LatticeSums;
 
 static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimension, Lattice lattice)
@@ -226,7 +227,7 @@ static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimen
     int reach[3] = {0, 0, 0};
     for (uint32_t axis = 0; axis < dimension; ++axis)
         reach[axis] = (int)fmin(ceil(support / lattice.cell[axis]), 100.0);
-    LatticeSums sums = {0.0, 0.0, 0.0};
+    LatticeSums sums = {0.0, 0.0, 0.0, 0.0};
     for (int k = -reach[2]; k <= reach[2]; ++k) {
         for (int j = -reach[1]; j <= reach[1]; ++j) {
             for (int i = -reach[0]; i <= reach[0]; ++i) {
@@ -234,8 +235,9 @@ static LatticeSums lattice_sums(const WeirParameters *parameters, uint32_t dimen
                 double x = i * lattice.cell[0], y = j * lattice.cell[1], z = k * lattice.cell[2];
                 double r = sqrt(x * x + y * y + z * z);
                 sums.filling += volume * weir_smoothing_value(parameters->kernel, dimension, r, support);
-                sums.laplacian -= volume * r * r / dimension *
-                                  weir_smoothing_gradient(parameters->kernel, dimension, r, support);
+                double slope = -weir_smoothing_gradient(parameters->kernel, dimension, r, support);
+                sums.laplacian += volume * slope * r * r / dimension;
+                sums.crossing += volume * slope * fabs(y);
                 sums.compact += volume * r * r / dimension * fmax(1.0 - r / support, 0.0);
             }
         }
@@ -278,6 +280,16 @@ static void add_site(ShiftingRates *rates, const WeirParameters *parameters, uin
             rates->rate[wave][n] += volume * (1.0 - cos((n + 1) * 3.141592653589793 / PHASES * sites)) *
                                     (value + slope * way / r);
     }
+}
+
+// 1 / the speed of fluid along a wall from which friction is turbulent (docs/wcsph.md): where the profile
+// u+ = 8.3 y+^(1/7) meets the viscous sublayer u+ = y+ (H. Werner, H. Wengle 1993). `height`: what speed over friction's shear
+// rate is for fluid at rest on its lattice that slides along a wall.
+static float turbulent_slip(const WeirParameters *parameters, double height)
+{
+    double reynolds = pow(8.3, 7.0 / 3.0);
+    if (!(parameters->viscosity > 0.0f) || parameters->wall_function == WEIR_WALL_FUNCTION_OFF) return 0.0f;
+    return (float)fmin(parameters->rest_density * height / (reynolds * parameters->viscosity), FLT_MAX);
 }
 
 // Shifting is an explicit step of a diffusion of the particles: if it undid the fastest wave by more than twice the amplitude
@@ -338,6 +350,7 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     // On the densest lattice Morris' Laplacian of a quadratic field is exact.
     constants->friction_factor = (float)(2.0 * parameters->viscosity / densest.laplacian);
     constants->laminar_factor = artificial > laminar ? 0.0f : constants->friction_factor;
+    constants->turbulent_slip = turbulent_slip(parameters, densest.laplacian / (2.0 * resting.crossing));
     for (int axis = 0; axis < (int)dimension; ++axis) {
         for (int side = 0; side < 2; ++side)
             if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);

@@ -52,6 +52,9 @@ WEIR_CHOICE(equation_of_state, "linear|tait", 0, "wcsph", 0,
 WEIR_CHOICE(tension_control, "off|on", 0, "wcsph", 1,
             "on: inside the fluid a negative pressure acts by its difference, so that tension opens no voids, "
             "at the price of exact momentum (Sun et al. 2018).")
+WEIR_CHOICE(wall_function, "off|on", 1, "wcsph", 1,
+            "on: at no-slip walls friction is that of a turbulent boundary layer where the flow along them is too fast for its "
+            "layer to be resolved (Werner, Wengle 1993); off: always that of laminar flow.")
 WEIR_CHOICE(stepping, "adaptive|fixed", 0, "wcsph", 1,
             "adaptive: each step as long as force, sound and viscosity allow; fixed: time_step.")
 

@@ -86,6 +86,20 @@ double weir_measure_height(const WeirSample *sample, double x, double z)
     return values[0];
 }
 
+double weir_measure_depth(const WeirSample *sample, double x, double z)
+{
+    uint32_t dimension = sample->state->dimension, kernel = sample->parameters->kernel;
+    double depth = 0.0, support = sample->parameters->support_radius;
+    for (size_t i = 0; i < sample->constants->first_solid; ++i) {
+        double dx = weir_sample_position(sample, i, 0) - x;
+        double dz = dimension == 3 ? weir_sample_position(sample, i, 2) - z : 0.0;
+        if (dx * dx + dz * dz >= support * support || !weir_sample_is_fluid(sample, i)) continue;
+        depth += (double)sample->constants->particle_mass / sample->state->density[i] *
+                 weir_smoothing_value(kernel, dimension - 1, sqrt(dx * dx + dz * dz), support);
+    }
+    return depth;
+}
+
 double weir_measure_pressure(const WeirSample *sample, const double point[3])
 {
     WeirProbePiece probe = {.kind = WEIR_PROBE_PRESSURE, .position = {point[0], point[1], point[2]}};

@@ -29,6 +29,9 @@ WeirFluidSums weir_fluid_sums(const WeirSample *sample);
 
 // Probes without a scene's piece (probe.h).
 double weir_measure_height(const WeirSample *sample, double x, double z);
+// Depth of all water over and under (x, 0, z), m: its volume, spread by the kernel of one dimension less, per area. What a wire
+// gauge measures, or a column of cells: air between water does not count. (Height: the highest water.)
+double weir_measure_depth(const WeirSample *sample, double x, double z);
 double weir_measure_pressure(const WeirSample *sample, const double point[3]);
 
 // Velocity at a point by the weighted least-squares plane through the fluid's velocities around it: exact for linear

@@ -133,6 +133,56 @@ static void laplacian_of_a_quadratic_velocity(const WeirBackend *backend)
     }
 }
 
+static void sliding(const double place[3], float *density, float velocity[3])
+{
+    (void)place;
+    *density = 1000;
+    velocity[0] = 2;
+}
+
+// Shear stress, Pa, of a block that slides at 2 m/s over the ground, endless along the others.
+static double friction_of_the_ground(const WeirBackend *backend, uint32_t dimension, double viscosity,
+                                     const char *wall_function)
+{
+    WeirScene *scene = block(dimension);
+    double low[3], high[3], side = 0.5 * SITES * spacing, force = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = -side;
+        high[axis] = axis == 1 ? 2 * side : side;
+    }
+    CHECK_SCENE(scene, weir_scene_set_domain(scene, low, high), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.open", "+y"), WEIR_OK);
+    CHECK_SCENE(scene, weir_scene_set_string(scene, "domain.periodic", dimension == 3 ? "xz" : "x"), WEIR_OK);
+    weir_test_set(scene, "viscosity", viscosity);
+    weir_test_choose(scene, "wall_function", wall_function);
+    WeirSim *sim = start(scene, backend, sliding);
+    uint32_t fluid = weir_sim_constants(sim)->first_solid;
+    float *a = weir_test_read(sim, WEIR_FIELD_ACCELERATION);
+    for (uint32_t i = 0; i < fluid; ++i)
+        force -= (double)weir_sim_constants(sim)->particle_mass * a[dimension * i];
+    free(a);
+    weir_sim_destroy(sim);
+    weir_scene_destroy(scene);
+    return force / pow(2 * side, dimension - 1.0);
+}
+
+// Over the height at which speed counts on this lattice (docs/wcsph.md), friction is laminar, mu v / y, or a turbulent one of
+// rho0 u_tau^2 with v / u_tau = 8.3 (y u_tau / nu)^(1/7), found here by iteration.
+static void friction_of_walls(const WeirBackend *backend)
+{
+    for (uint32_t dimension = 2; dimension <= 3; ++dimension) {
+        double y = (dimension == 2 ? 0.732 : 0.580) * spacing, viscosity = 0.01, shear_speed = 0.1;
+        for (int k = 0; k < 50; ++k)
+            shear_speed = 2 / (8.3 * pow(y * shear_speed * 1000 / viscosity, 1.0 / 7.0));
+        double turbulent = 1000 * shear_speed * shear_speed, laminar = viscosity * 2 / y;
+        assert_true(turbulent > 10 * laminar);
+        CHECK_NEAR(friction_of_the_ground(backend, dimension, viscosity, "on"), turbulent, 0.01 * turbulent);
+        CHECK_NEAR(friction_of_the_ground(backend, dimension, viscosity, "off"), laminar, 0.01 * laminar);
+        double slow = 1000 * 2 * y / 8; // resolved: a Reynolds number of 8
+        CHECK_NEAR(friction_of_the_ground(backend, dimension, slow, "on"), slow * 2 / y, 0.01 * slow * 2 / y);
+    }
+}
+
 static void shear(const double place[3], float *density, float velocity[3])
 {
     *density = 1000;
@@ -402,6 +452,7 @@ static void a_turning_block_thins_as_it_flies_apart(const WeirBackend *backend)
 static const WeirSharedTest tests[] = {
     WEIR_SHARED_TEST(pressure_gradient_of_a_linear_field),
     WEIR_SHARED_TEST(laplacian_of_a_quadratic_velocity),
+    WEIR_SHARED_TEST(friction_of_walls),
     WEIR_SHARED_TEST(shear_is_not_accelerated),
     WEIR_SHARED_TEST(continuity_of_an_expansion),
     WEIR_SHARED_TEST(a_turning_block_thins_as_it_flies_apart),

@@ -116,6 +116,26 @@ static void acceleration_at(const WeirWcsph *solver, uint32_t i, uint32_t group,
         a[axis] = sway * (state->acceleration[axis] + swing[axis]) + pull[axis];
 }
 
+// Friction over that of laminar flow, of fluid that moves by `slip` m/s along a wall: docs/wcsph.md.
+static float turbulence(const WeirConstants *constants, float slip)
+{
+    float root = sqrtf(slip * constants->turbulent_slip);
+    return fmaxf(root * sqrtf(root), 1.0f);
+}
+
+// Of solid particle i: from the fluid's velocity to the one that `forces` takes for friction.
+static void mirror(const WeirWcsphData *data, uint32_t i)
+{
+    float slip[3], slip2 = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        slip[axis] = data->seen_velocity[axis][i] - data->velocity[axis][i];
+        slip2 += slip[axis] * slip[axis];
+    }
+    float times = 1.0f - 2.0f * turbulence(data->constants, sqrtf(slip2));
+    for (int axis = 0; axis < 3; ++axis)
+        data->seen_velocity[axis][i] = data->velocity[axis][i] + times * slip[axis];
+}
+
 static void walls_chunk(void *context, uint32_t begin, uint32_t end)
 {
     WeirWcsph *solver = context;
@@ -134,8 +154,7 @@ static void walls_chunk(void *context, uint32_t begin, uint32_t end)
             for (int axis = 0; axis < 3; ++axis)
                 pressure += (parameters->gravity[axis] - a[axis]) * data->extrapolated[axis][i];
             if (pressure < 0.0f) pressure = 0.0f;
-            for (int axis = 0; axis < 3; ++axis)
-                data->seen_velocity[axis][i] = 2.0f * data->velocity[axis][i] - data->seen_velocity[axis][i];
+            mirror(data, i);
         } else {
             for (int axis = 0; axis < 3; ++axis) data->seen_velocity[axis][i] = data->velocity[axis][i];
         }
