@@ -176,29 +176,23 @@ INLINE WeirMask chosen(const float *flag, uint32_t begin, uint32_t lanes)
     return (WeirMask)(weir_lanes_load(flag + begin) != (WeirLanes){0}) & weir_mask_first(lanes);
 }
 
-// Is candidate j within the support of any lane? Else it would add 0 to all of them.
-INLINE bool is_seen(const WeirWcsphData *data, WeirLanes support2, const WeirMask place[3], uint32_t j,
-                    Variant variant)
-{
-    Vector x = offset_to(data, place, j, variant);
-    return weir_lanes_any_below(dot(x, x, variant), support2);
-}
-
 enum { MOST_SEEN = 64 };
 
-// Notes who is seen of the next MOST_SEEN candidates, or `end`. Without a branch: where half of them are, as in 3D, no processor
-// guesses which in disordered fluid. Returns how many.
+// Notes which of the next MOST_SEEN candidates, or up to `end`, are within the support of any lane (others would add 0 to all), and how
+// far they are. Without a branch: where half of them are, as in 3D, no processor guesses which in disordered fluid. Returns how many.
 INLINE uint32_t note_seen(const WeirWcsphData *data, WeirLanes support2, const WeirMask place[3],
                           uint32_t begin, uint32_t end, bool fluid_alone, Variant variant,
-                          uint32_t seen[MOST_SEEN])
+                          uint32_t seen[MOST_SEEN], WeirLanes r2[MOST_SEEN])
 {
     uint32_t count = 0;
     if (end - begin > MOST_SEEN) end = begin + MOST_SEEN;
     if (fluid_alone && !any_set(data->is_fluid, begin, end - begin))
         return 0; // most of what a wall has around it
     for (uint32_t j = begin; j < end; ++j) {
+        Vector x = offset_to(data, place, j, variant);
         seen[count] = j;
-        count += is_seen(data, support2, place, j, variant) & (!fluid_alone | (data->is_fluid[j] != 0.0f));
+        r2[count] = dot(x, x, variant);
+        count += weir_lanes_any_below(r2[count], support2) & (!fluid_alone | (data->is_fluid[j] != 0.0f));
     }
     return count;
 }
@@ -211,18 +205,17 @@ typedef struct WallSums {
 } WallSums;
 
 // What candidate j, fluid, adds.
-INLINE void add_seen(const WeirWcsphData *data, const WeirMask place[3], uint32_t j, Variant variant,
-                     WallSums *sums)
+INLINE void add_seen(const WeirWcsphData *data, const WeirMask place[3], uint32_t j, WeirLanes r2,
+                     Variant variant, WallSums *sums)
 {
-    Vector x = offset_to(data, place, j, variant);
-    WeirLanes r2 = dot(x, x, variant);
     WeirLanes w = kernel_shape(weir_lanes_sqrt(r2) * data->constants->inverse_support, variant);
     sums->weight += w;
     sums->pressure += w * data->pressure[j];
     sums->mean.x += w * data->velocity[0][j];
     sums->mean.y += w * data->velocity[1][j];
     if (variant.three_dimensional) sums->mean.z += w * data->velocity[2][j];
-    add_scaled(&sums->moment, w * (data->excess[j] + data->parameters->rest_density), x, variant);
+    add_scaled(&sums->moment, w * (data->excess[j] + data->parameters->rest_density),
+               offset_to(data, place, j, variant), variant);
 }
 
 INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, uint32_t begin,
@@ -236,8 +229,10 @@ INLINE void walls_group(const WeirWcsphData *data, const WeirLaneGroup *group, u
         load_place(data, begin, &group->run[n], place);
         for (uint32_t first = group->run[n].begin; first < group->run[n].end; first += MOST_SEEN) {
             uint32_t seen[MOST_SEEN];
-            uint32_t count = note_seen(data, support2, place, first, group->run[n].end, true, variant, seen);
-            for (uint32_t k = 0; k < count; ++k) add_seen(data, place, seen[k], variant, &sums);
+            WeirLanes r2[MOST_SEEN];
+            uint32_t count =
+                note_seen(data, support2, place, first, group->run[n].end, true, variant, seen, r2);
+            for (uint32_t k = 0; k < count; ++k) add_seen(data, place, seen[k], r2[k], variant, &sums);
         }
     }
     for (uint32_t lane = 0; lane < group->lanes; ++lane) {
@@ -294,10 +289,16 @@ typedef struct ForceSums {
     Vector moment;        // sum 1 / rho_j (1 - s) x, between fluid
 } ForceSums;
 
+// Of a lane and a candidate.
+typedef struct Distance {
+    WeirLanes r2, inverse_r2,
+        s; // r^2 (and a quantum, so that it can be divided by) and 1 / r^2, quanta; r / R
+} Distance;
+
 // What the terms of a lane and candidate j share.
 typedef struct Pair {
+    Distance distance;
     Vector x, v;                       // x_i - x_j, quanta; v_i - v_j, m/s
-    WeirLanes r2, inverse_r2, s;       // r^2 and 1 / r^2, quanta; r / R
     WeirLanes inverse_density, weight; // 1 / rho_j; (1 - s) / rho_j
     WeirLanes approach;                // v . x
 } Pair;
@@ -370,12 +371,12 @@ INLINE WeirLanes slope_at_end(const WeirWcsphData *data, const ForceLanes *own, 
 {
     const WeirLanes zero = {0};
     if (variant.kernel == WEIR_KERNEL_CUBIC || variant.kernel == WEIR_KERNEL_QUINTIC) {
-        WeirLanes end2 = weir_lanes_max(pair->r2 + data->second_half * growth, zero);
+        WeirLanes end2 = weir_lanes_max(pair->distance.r2 + data->second_half * growth, zero);
         WeirLanes slope = kernel_slope(weir_lanes_sqrt(end2) * own->inverse_support, variant);
-        return weir_lanes_select((WeirMask)(pair->r2 < own->support2), slope, zero);
+        return weir_lanes_select((WeirMask)(pair->distance.r2 < own->support2), slope, zero);
     }
-    WeirLanes q = rest_to(1.0f, pair->s);
-    WeirLanes end = q - 1.5f * data->second_half * (pair->s * pair->inverse_r2) * growth;
+    WeirLanes q = rest_to(1.0f, pair->distance.s);
+    WeirLanes end = q - 1.5f * data->second_half * (pair->distance.s * pair->distance.inverse_r2) * growth;
     return q * q * weir_lanes_min(weir_lanes_max(end, zero), weir_lanes_fill(1.0f));
 }
 
@@ -417,13 +418,13 @@ INLINE SeenWall seen_wall(const WeirWcsphData *data, WeirLanes fluid_pressure, V
     return (SeenWall){pressure, 1.0f / (excess + rest_density)};
 }
 
-// Adds candidate j at x = x_i - x_j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of
-// both the sums of solid lanes are nobody's.
-INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_t j, Vector x, WeirLanes r2,
-                       Variant variant, bool solids, ForceSums *sums)
+// Adds candidate j. `solids`: the lanes are solid particles, on which only the fluid acts. In a group of both the sums of solid
+// lanes are nobody's.
+INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3], uint32_t j,
+                       Distance distance, Variant variant, bool solids, ForceSums *sums)
 {
-    r2 += 1.0f; // quantum, so that it can be divided by
-    WeirLanes r = weir_lanes_sqrt(r2), inverse_r2 = 1.0f / r2, s = r * own->inverse_support;
+    Vector x = offset_to(data, place, j, variant);
+    WeirLanes s = distance.s;
     WeirLanes pressure = weir_lanes_fill(data->pressure[j]),
               inverse_density = weir_lanes_fill(data->inverse_density[j]);
     if (data->walls_by_pair && solids) {
@@ -445,44 +446,37 @@ INLINE void add_forces(const WeirWcsphData *data, const ForceLanes *own, uint32_
     add_scaled(&sums->pressure, pressure, slant, variant);
     add(&sums->gradient, slant, variant);
     if (data->is_fluid[j] != 0.0f && !solids) {
-        if (own->viscous) add_scaled(&sums->viscous, approach * inverse_r2, slant, variant);
+        if (own->viscous) add_scaled(&sums->viscous, approach * distance.inverse_r2, slant, variant);
         if (own->laminar) add_scaled(&sums->laminar, slope, v, variant);
     } else {
         if (own->friction) add_scaled(&sums->friction, slope * (own->stick * data->stick[j]), v, variant);
-        add_barrier(data, own, j, x, r, variant, &sums->barrier);
+        add_barrier(data, own, j, x, weir_lanes_sqrt(distance.r2), variant, &sums->barrier);
     }
     WeirLanes shape = kernel_shape(s, variant);
     sums->filling += shape * inverse_density;
     if (solids) return;
-    sums->surface += slope * r2;
+    sums->surface += slope * distance.r2;
     if (own->clustering) add_scaled(&sums->clustering, lanes_power4(shape * clustering_unit), slant, variant);
-    Pair pair = {x, v, r2, inverse_r2, s, inverse_density, weight, approach};
+    Pair pair = {distance, x, v, inverse_density, weight, approach};
     add_rates(data, own, j, &pair, variant, sums);
 }
 
-INLINE void add_candidate(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3],
-                          uint32_t j, Variant variant, bool solids, ForceSums *sums)
-{
-    Vector x = offset_to(data, place, j, variant);
-    add_forces(data, own, j, x, dot(x, x, variant), variant, solids, sums);
-}
-
-// In 2D four of five candidates are seen: a branch costs less than a note.
+// Who is seen first, then the roots and quotients of all of them, then their terms: a processor that waits for a candidate's root
+// looks no farther ahead than two candidates.
 INLINE void add_run(const WeirWcsphData *data, const ForceLanes *own, const WeirMask place[3],
                     const WeirRun *run, Variant variant, bool solids, ForceSums *sums)
 {
-    if (!variant.three_dimensional) {
-        for (uint32_t j = run->begin; j < run->end; ++j) {
-            if (solids && data->is_fluid[j] == 0.0f) continue;
-            if (is_seen(data, own->support2, place, j, variant))
-                add_candidate(data, own, place, j, variant, solids, sums);
-        }
-        return;
-    }
     for (uint32_t begin = run->begin; begin < run->end; begin += MOST_SEEN) {
         uint32_t seen[MOST_SEEN];
-        uint32_t count = note_seen(data, own->support2, place, begin, run->end, solids, variant, seen);
-        for (uint32_t n = 0; n < count; ++n) add_candidate(data, own, place, seen[n], variant, solids, sums);
+        WeirLanes r2[MOST_SEEN];
+        Distance distance[MOST_SEEN];
+        uint32_t count = note_seen(data, own->support2, place, begin, run->end, solids, variant, seen, r2);
+        for (uint32_t n = 0; n < count; ++n) {
+            WeirLanes square = r2[n] + 1.0f;
+            distance[n] = (Distance){square, 1.0f / square, weir_lanes_sqrt(square) * own->inverse_support};
+        }
+        for (uint32_t n = 0; n < count; ++n)
+            add_forces(data, own, place, seen[n], distance[n], variant, solids, sums);
     }
 }
 
