@@ -67,7 +67,6 @@ def parameters(draw, depth, particles):
         (0.2, "shifting", [0, 0.5, 1]),
         (0.2, "density_diffusion", [0, 0.05]),
         (0.1, "tension_control", ["on"]),
-        (0.1, "wall_function", ["off"]),
         (0.1, "rest_density", [1.2, 13600]),
         (0.1, "gravity", [[draw.number(-9, 9) for _ in draw.size]]),
     ):

@@ -1,5 +1,5 @@
 // What a solid's particle sees of the fluid near it (Adami, Hu, Adams 2012): pressure, kept as the excess density that it
-// stands for, and for the laminar viscosity the mirrored velocity. Sums for common/neighbors.wgsl.
+// stands for, and the velocity that friction takes. Sums for common/neighbors.wgsl.
 struct Own {
     unused: u32,
 }

@@ -90,7 +90,7 @@ double weir_measure_depth(const WeirSample *sample, double x, double z)
 {
     uint32_t dimension = sample->state->dimension, kernel = sample->parameters->kernel;
     double depth = 0.0, support = sample->parameters->support_radius;
-    for (size_t i = 0; i < sample->constants->first_solid; ++i) {
+    for (size_t i = 0; i < sample->state->count; ++i) {
         double dx = weir_sample_position(sample, i, 0) - x;
         double dz = dimension == 3 ? weir_sample_position(sample, i, 2) - z : 0.0;
         if (dx * dx + dz * dz >= support * support || !weir_sample_is_fluid(sample, i)) continue;

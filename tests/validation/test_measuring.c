@@ -316,6 +316,23 @@ static void test_velocity_beside_a_wall_is_linear(void **state)
     unmake(&made);
 }
 
+static void test_depth_is_that_of_water_alone(void **state)
+{
+    (void)state;
+    Made made;
+    make(&made, 30, 0.0, 0.0, 1.0);
+    CHECK_NEAR(weir_measure_depth(&made.sample, 0.5, 0.0), 1.0, 0.005);
+    CHECK_NEAR(weir_measure_depth(&made.sample, 0.0, 0.0), 0.5, 0.005);
+    CHECK_NEAR(weir_measure_depth(&made.sample, 3.0, 0.0), 0.0, 0.0);
+    for (uint32_t i = 0; i < made.state.count; ++i) // the upper third flies
+        if (i / 30 >= 20) made.position[2 * i + 1] += 0.4f;
+    CHECK_NEAR(weir_measure_depth(&made.sample, 0.5, 0.0), 1.0, 0.005);
+    CHECK_NEAR(weir_measure_height(&made.sample, 0.5, 0.0), 1.4, 0.01);
+    for (uint32_t i = 0; i < made.state.count; ++i) made.density[i] = 1010.0f;
+    CHECK_NEAR(weir_measure_depth(&made.sample, 0.5, 0.0), 1.0 / 1.01, 0.005);
+    unmake(&made);
+}
+
 static void test_clusters(void **state)
 {
     (void)state;
@@ -383,6 +400,7 @@ int main(void)
         cmocka_unit_test(test_series_meet_their_ends),
         cmocka_unit_test(test_reference_reader),
         cmocka_unit_test(test_velocity_beside_a_wall_is_linear),
+        cmocka_unit_test(test_depth_is_that_of_water_alone),
         cmocka_unit_test(test_clusters),
         cmocka_unit_test(test_every_case_is_complete),
         cmocka_unit_test(test_gates_judge),

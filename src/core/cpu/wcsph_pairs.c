@@ -291,8 +291,9 @@ typedef struct ForceSums {
 
 // Of a lane and a candidate.
 typedef struct Distance {
-    WeirLanes r2, inverse_r2,
-        s; // r^2 (and a quantum, so that it can be divided by) and 1 / r^2, quanta; r / R
+    WeirLanes r2;         // r^2 and a quantum, so that it can be divided by; quanta
+    WeirLanes inverse_r2; // 1 / r2
+    WeirLanes s;          // r / R
 } Distance;
 
 // What the terms of a lane and candidate j share.

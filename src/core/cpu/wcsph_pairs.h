@@ -24,7 +24,7 @@ typedef struct WeirWcsphData {
     float *excess; // density less rest density, kg/m^3; of solids: of the pressure that walls extrapolates
     float *inverse_density;  // m^3/kg
     float *pressure;         // Pa
-    float *seen_velocity[3]; // as `forces` sees it: of no-slip solids mirrored
+    float *seen_velocity[3]; // as `forces` sees it: of solids what friction takes, mirrored or more
     float *new_velocity
         [3]; // m/s; of solids: their own, without what their surface slides, for `forces`; of fluid: after the kick
     float *acceleration[3]; // m/s^2; of solids: force of the fluid on the particle over the particle mass
