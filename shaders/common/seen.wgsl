@@ -39,7 +39,7 @@ fn share_of(i: u32, lane: u32) -> Sums {
 
 // Friction over that of laminar flow, of fluid that moves by `slip` m/s along a wall (docs/wcsph.md).
 fn turbulence(slip: f32) -> f32 {
-    let root = sqrt(slip * constants.turbulent_slip);
+    let root = sqrt(slip * constants.inverse_turbulent_slip);
     return max(root * sqrt(root), 1.0);
 }
 

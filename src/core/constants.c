@@ -285,7 +285,7 @@ static void add_site(ShiftingRates *rates, const WeirParameters *parameters, uin
 // 1 / the speed of fluid along a wall from which friction is turbulent (docs/wcsph.md): where the profile
 // u+ = 8.3 y+^(1/7) meets the viscous sublayer u+ = y+ (H. Werner, H. Wengle 1993). `height`: what speed over friction's shear
 // rate is for fluid at rest on its lattice that slides along a wall.
-static float turbulent_slip(const WeirParameters *parameters, double height)
+static float inverse_turbulent_slip(const WeirParameters *parameters, double height)
 {
     double reynolds = pow(8.3, 7.0 / 3.0);
     if (!(parameters->viscosity > 0.0f) || parameters->wall_function == WEIR_WALL_FUNCTION_OFF) return 0.0f;
@@ -350,7 +350,8 @@ static void make_wcsph(WeirConstants *constants, const WeirScene *scene, const W
     // On the densest lattice Morris' Laplacian of a quadratic field is exact.
     constants->friction_factor = (float)(2.0 * parameters->viscosity / densest.laplacian);
     constants->laminar_factor = artificial > laminar ? 0.0f : constants->friction_factor;
-    constants->turbulent_slip = turbulent_slip(parameters, densest.laplacian / (2.0 * resting.crossing));
+    constants->inverse_turbulent_slip =
+        inverse_turbulent_slip(parameters, densest.laplacian / (2.0 * resting.crossing));
     for (int axis = 0; axis < (int)dimension; ++axis) {
         for (int side = 0; side < 2; ++side)
             if (scene->open[axis][side]) constants->open_sides |= 1u << (2 * axis + side);

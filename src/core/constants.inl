@@ -42,7 +42,7 @@ WEIR_CONSTANT_NUMBER(viscous_step, "wcsph: longest time step by laminar viscosit
 WEIR_CONSTANT_NUMBER(artificial_factor, "wcsph: viscosity_factor if it is the artificial viscosity's, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(laminar_factor, "wcsph: friction_factor if laminar viscosity is the larger one, else 0, Pa s")
 WEIR_CONSTANT_NUMBER(friction_factor, "wcsph: 2 mu, calibrated so that the Laplacian is exact on the densest lattice, Pa s")
-WEIR_CONSTANT_NUMBER(turbulent_slip, "wcsph: 1 / the speed of fluid along no-slip walls from which friction is turbulent, s/m; 0 without viscosity")
+WEIR_CONSTANT_NUMBER(inverse_turbulent_slip, "wcsph: 1 / the speed of fluid along no-slip walls from which friction is turbulent, s/m; 0 without viscosity")
 WEIR_CONSTANT_COUNT(tool_kind, "WeirToolKind")
 WEIR_CONSTANT_COUNT(particle_count, "particles")
 WEIR_CONSTANT_COUNT(cell_columns, "cells along x")

@@ -119,7 +119,7 @@ static void acceleration_at(const WeirWcsph *solver, uint32_t i, uint32_t group,
 // Friction over that of laminar flow, of fluid that moves by `slip` m/s along a wall: docs/wcsph.md.
 static float turbulence(const WeirConstants *constants, float slip)
 {
-    float root = sqrtf(slip * constants->turbulent_slip);
+    float root = sqrtf(slip * constants->inverse_turbulent_slip);
     return fmaxf(root * sqrtf(root), 1.0f);
 }
 
