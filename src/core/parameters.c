@@ -174,3 +174,9 @@ WeirStatus weir_parameter_set_text(WeirParameters *parameters, uint32_t index, c
     }
     return weir_parameter_set(parameters, index, info->name, values, count, message);
 }
+
+double weir_lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double supports)
+{
+    double ratio = supports * parameters->support_radius / parameters->particle_spacing;
+    return dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.1416 * ratio * ratio;
+}

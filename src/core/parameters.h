@@ -48,5 +48,8 @@ WeirStatus weir_parameter_set_choice(WeirParameters *parameters, uint32_t index,
 WeirStatus weir_parameter_set_text(WeirParameters *parameters, uint32_t index, const char *text,
                                    WeirMessage *message);
 
+// How many particles of the resting lattice lie within so many supports of one: as many as fit into that circle or ball.
+double weir_lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double supports);
+
 // Replaces the tool alone. `tool` NULL: none.
 void weir_constants_set_tool(WeirConstants *constants, const WeirTool *tool);

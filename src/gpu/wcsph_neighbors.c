@@ -33,12 +33,6 @@ static const uint32_t most_lanes = 8;
 // In 2D from so many particles on, few of which are near walls; sums over fluid alone take a tenth of the instructions less.
 static const double least_marked = 262144.0;
 
-static double lattice_neighbors(const WeirParameters *parameters, uint32_t dimension, double reach)
-{
-    double ratio = reach * parameters->support_radius / parameters->particle_spacing;
-    return dimension == 3 ? 4.19 * ratio * ratio * ratio : 3.1416 * ratio * ratio;
-}
-
 // Whether a periodic axis is so short that a list could hold a particle twice.
 static bool is_short(const WeirConstants *constants, double reach)
 {
@@ -89,7 +83,7 @@ static uint32_t parts_of_lists(const WeirParameters *parameters, const WeirConst
                                double allowance)
 {
     double reach = 1.0 + 2.0 * allowance;
-    double neighbors = lattice_neighbors(parameters, constants->dimension, reach);
+    double neighbors = weir_lattice_neighbors(parameters, constants->dimension, reach);
     double wanted = ceil(list_margin * neighbors / 8.0) + 1.0;
     if (!(wanted <= most_parts)) return 0; // what is not a number too
     return is_short(constants, reach) ? 0 : (uint32_t)wanted;
@@ -137,7 +131,7 @@ void weir_gpu_wcsph_plan(WeirWcsphTraits *traits, const WeirParameters *paramete
                          const WeirConstants *constants, const WeirGpu *gpu, uint64_t most_list_bytes)
 {
     double support = (double)(1u << constants->coordinate_bits);
-    double neighbors = lattice_neighbors(parameters, constants->dimension, 1.0);
+    double neighbors = weir_lattice_neighbors(parameters, constants->dimension, 1.0);
     double device = weir_parallelism_ratio(gpu);
     double pairs = constants->particle_count * neighbors;
     traits->lanes = lanes_for(constants->particle_count, neighbors, gpu);

@@ -12,11 +12,11 @@
 
 extern const WeirPairPasses weir_pair_passes_base;
 #if defined(__x86_64__)
-extern const WeirPairPasses weir_pair_passes_avx2, weir_pair_passes_avx512;
+extern const WeirPairPasses weir_pair_passes_avx2, weir_pair_passes_avx512, weir_pair_passes_avx512vl;
 #endif
 
 // Variants that this processor runs, the base first.
-static int runnable_variants(const WeirPairPasses *variants[3])
+static int runnable_variants(const WeirPairPasses *variants[4])
 {
     int count = 0;
     variants[count++] = &weir_pair_passes_base;
@@ -24,6 +24,7 @@ static int runnable_variants(const WeirPairPasses *variants[3])
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) variants[count++] = &weir_pair_passes_avx2;
     if (__builtin_cpu_supports("avx512f")) variants[count++] = &weir_pair_passes_avx512;
+    if (__builtin_cpu_supports("avx512vl")) variants[count++] = &weir_pair_passes_avx512vl;
 #endif
     return count;
 }
@@ -116,7 +117,7 @@ static void check_variants(uint32_t kernels, uint32_t search)
 {
     static const uint32_t chunks[] = {COUNT, 512, 7, 1};
     static Results first, other;
-    const WeirPairPasses *variants[3];
+    const WeirPairPasses *variants[4];
     int count = runnable_variants(variants);
     Fixture *fixture = make_fixture(kernels, search);
     run_variant(fixture, variants[0], COUNT, &first);

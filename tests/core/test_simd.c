@@ -4,6 +4,7 @@
 const char *weir_test_simd_base(void);
 const char *weir_test_simd_avx2(void);
 const char *weir_test_simd_avx512(void);
+const char *weir_test_simd_avx512vl(void);
 
 static void check_operations(const char *set, const char *wrong)
 {
@@ -18,6 +19,7 @@ static void operations_do_what_they_say(void **state)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) check_operations("AVX2", weir_test_simd_avx2());
     if (__builtin_cpu_supports("avx512f")) check_operations("AVX-512", weir_test_simd_avx512());
+    if (__builtin_cpu_supports("avx512vl")) check_operations("AVX-512VL", weir_test_simd_avx512vl());
 #endif
 }
 

@@ -7,11 +7,11 @@
 
 extern const WeirWcsphPasses weir_wcsph_passes_base;
 #if defined(__x86_64__)
-extern const WeirWcsphPasses weir_wcsph_passes_avx2, weir_wcsph_passes_avx512;
+extern const WeirWcsphPasses weir_wcsph_passes_avx2, weir_wcsph_passes_avx512, weir_wcsph_passes_avx512vl;
 #endif
 
 // Variants that this processor runs, the base first.
-static int runnable_variants(const WeirWcsphPasses *variants[3])
+static int runnable_variants(const WeirWcsphPasses *variants[4])
 {
     int count = 0;
     variants[count++] = &weir_wcsph_passes_base;
@@ -19,6 +19,7 @@ static int runnable_variants(const WeirWcsphPasses *variants[3])
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) variants[count++] = &weir_wcsph_passes_avx2;
     if (__builtin_cpu_supports("avx512f")) variants[count++] = &weir_wcsph_passes_avx512;
+    if (__builtin_cpu_supports("avx512vl")) variants[count++] = &weir_wcsph_passes_avx512vl;
 #endif
     return count;
 }
@@ -73,7 +74,7 @@ static void instruction_sets_agree(void **state)
 {
     (void)state;
     static const char *const kernels[] = {"wendland", "cubic", "quintic"};
-    const WeirWcsphPasses *variants[3];
+    const WeirWcsphPasses *variants[4];
     int count = runnable_variants(variants);
     for (int n = 0; n < 12; ++n) {
         double spacing =

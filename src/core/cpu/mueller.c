@@ -277,6 +277,9 @@ static WeirStatus configure(WeirSolver *base, const WeirParameters *parameters,
     if (memcmp(&solver->parameters, parameters, sizeof *parameters) != 0) solver->evaluated = false;
     solver->parameters = *parameters;
     solver->constants = *constants;
+    bool all = parameters->search == WEIR_SEARCH_ALL_PAIRS; // every other particle is a candidate
+    solver->pairs =
+        weir_pair_passes(all ? constants->particle_count : weir_lattice_neighbors(parameters, 2, 1.0));
     return WEIR_OK;
 }
 
@@ -371,7 +374,6 @@ WeirSolver *weir_mueller_cpu_create(const WeirSolverSetup *setup, WeirStatus *st
         return NULL;
     }
     solver->base.interface = &mueller_interface;
-    solver->pairs = weir_pair_passes();
     weir_cpu_describe(&solver->base, solver->pool, solver->pairs->simd);
     set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;

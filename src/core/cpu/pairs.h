@@ -27,5 +27,5 @@ typedef struct WeirPairPasses {
     void (*forces)(const WeirPairData *data, uint32_t begin, uint32_t end);
 } WeirPairPasses;
 
-// The widest that this processor runs.
-const WeirPairPasses *weir_pair_passes(void);
+// The fastest that this processor runs, for particles with about so many neighbours.
+const WeirPairPasses *weir_pair_passes(double neighbors);

@@ -7,7 +7,10 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(__AVX512F__)
+#if defined(__AVX512VL__)
+enum { WEIR_LANES = 8 };
+#define WEIR_SIMD_NAME "AVX-512, 8 lanes"
+#elif defined(__AVX512F__)
 enum { WEIR_LANES = 16 };
 #define WEIR_SIMD_NAME "AVX-512"
 #elif defined(__AVX2__)
@@ -88,7 +91,7 @@ static inline WeirLanes weir_lanes_select(WeirMask mask, WeirLanes a, WeirLanes 
     return (WeirLanes)((mask & (WeirMask)a) | (~mask & (WeirMask)b));
 }
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__AVX512VL__)
 #include <immintrin.h>
 static inline WeirLanes weir_lanes_sqrt(WeirLanes a)
 {
@@ -129,6 +132,20 @@ static inline WeirLanes weir_lanes_min(WeirLanes a, WeirLanes b)
 {
     return (WeirLanes)_mm256_min_ps((__m256)a, (__m256)b);
 }
+#if defined(__AVX512VL__)
+static inline bool weir_mask_any(WeirMask mask)
+{
+    return _mm256_test_epi32_mask((__m256i)mask, (__m256i)mask) != 0;
+}
+static inline bool weir_lanes_any_below(WeirLanes a, WeirLanes b)
+{
+    return _mm256_cmp_ps_mask((__m256)a, (__m256)b, _CMP_LT_OQ) != 0;
+}
+static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask mask)
+{
+    _mm256_mask_storeu_ps(values, _mm256_test_epi32_mask((__m256i)mask, (__m256i)mask), (__m256)a);
+}
+#else
 static inline bool weir_mask_any(WeirMask mask)
 {
     return !_mm256_testz_si256((__m256i)mask, (__m256i)mask);
@@ -141,6 +158,7 @@ static inline void weir_lanes_store_where(float *values, WeirLanes a, WeirMask m
 {
     _mm256_maskstore_ps(values, (__m256i)mask, (__m256)a);
 }
+#endif
 #elif defined(__SSE2__)
 #include <emmintrin.h>
 static inline WeirLanes weir_lanes_sqrt(WeirLanes a)

@@ -492,8 +492,10 @@ WeirSolver *weir_wcsph_cpu_create(const WeirSolverSetup *setup, WeirStatus *stat
         return NULL;
     }
     solver->base.interface = &wcsph_interface;
-    solver->passes = weir_wcsph_passes();
-    solver->motion = weir_wcsph_motion();
+    uint32_t dimension = setup->constants.dimension;
+    double neighbors = weir_lattice_neighbors(&setup->parameters, dimension, 1.0);
+    solver->passes = weir_wcsph_passes(dimension, neighbors);
+    solver->motion = weir_wcsph_motion(dimension, neighbors);
     weir_cpu_describe(&solver->base, solver->pool, solver->passes->simd);
     set_state(&solver->base, &setup->world->particles);
     *status = WEIR_OK;

@@ -145,8 +145,8 @@ static inline float *weir_wcsph_seen(const WeirWcsph *solver, uint32_t i)
 }
 
 // ---- dispatch.c ----
-// Motion for the widest instruction set that this processor runs.
-const WeirWcsphMotion *weir_wcsph_motion(void);
+// The fastest motion that this processor runs, for particles with about so many neighbours.
+const WeirWcsphMotion *weir_wcsph_motion(uint32_t dimension, double neighbors);
 
 // ---- wcsph_solids.c ----
 // Velocity of every solid's particles among `particles`, `surface`: with the surface's own.

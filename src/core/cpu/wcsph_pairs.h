@@ -43,5 +43,5 @@ typedef struct WeirWcsphPasses {
     void (*forces)(const WeirWcsphData *data, uint32_t begin, uint32_t end);
 } WeirWcsphPasses;
 
-// The widest that this processor runs.
-const WeirWcsphPasses *weir_wcsph_passes(void);
+// The fastest that this processor runs, for particles with about so many neighbours.
+const WeirWcsphPasses *weir_wcsph_passes(uint32_t dimension, double neighbors);
