@@ -15,8 +15,9 @@ enum {
     MAX_BATCH = 1024,
     STIRRED_BATCH = 256, // of a fluid that calms down: so many of these and no more, on a fast machine too
     STIRRED_REPETITIONS = 7,
-    LEAST_STIRRED_BATCH = 32, // on a GPU, which makes lists every few steps: some in every batch
-    SETTLING_STEPS = 200,     // of a fluid whose batches follow one another, before the first
+    SHORT_STIRRED_BATCH = 32, // where the others would take STIRRED_PATIENCE times as long as there is
+    STIRRED_PATIENCE = 30,
+    SETTLING_STEPS = 200, // of a fluid whose batches follow one another, before the first
 };
 
 typedef struct Measurement {
@@ -50,9 +51,23 @@ static double time_steps(const Measurement *m, uint32_t steps)
     return weir_wall_time() - start;
 }
 
-static bool makes_lists(const Measurement *m)
+// On a GPU, which makes lists every few steps: some in every batch.
+static bool has_fixed_steps(const Measurement *m)
 {
     return m->stirred && weir_sim_threads(m->sim) == 0;
+}
+
+// Steps of a batch of stirred fluid, always the same ones: how fast it is hangs on how long it has calmed down. Before them the
+// device wakes: the clock of an idle one is low.
+static uint32_t warm_up_stirred(const Measurement *m, double *batch)
+{
+    double end = weir_wall_time() + 0.3 * m->effort->seconds;
+    do *batch = time_steps(m, SHORT_STIRRED_BATCH);
+    while (*batch >= 0.0 && weir_wall_time() < end);
+    double all = *batch * (STIRRED_REPETITIONS * STIRRED_BATCH / SHORT_STIRRED_BATCH);
+    uint32_t steps = all > STIRRED_PATIENCE * m->effort->seconds ? SHORT_STIRRED_BATCH : STIRRED_BATCH;
+    if (*batch >= 0.0) *batch = start_anew(m) ? -1.0 : time_steps(m, 2 * steps - 1);
+    return steps;
 }
 
 // Steps of a batch: doubled until it takes a tenth of the time to spend, which warms up as well. Negative batch time:
@@ -61,9 +76,9 @@ static uint32_t warm_up(const Measurement *m, double *batch)
 {
     double wish = 0.1 * m->effort->seconds, end = weir_wall_time() + 10.0 * m->effort->seconds;
     uint32_t most = m->anew ? ANEW_BATCH : m->stirred ? STIRRED_BATCH : MAX_BATCH, steps = 1;
-    uint32_t least = makes_lists(m) ? LEAST_STIRRED_BATCH : 1;
+    if (has_fixed_steps(m)) return warm_up_stirred(m, batch);
     *batch = time_steps(m, steps);
-    while (*batch >= 0.0 && (*batch < wish || steps < least) && steps < most) {
+    while (*batch >= 0.0 && *batch < wish && steps < most) {
         steps = 2 * steps < most ? 2 * steps : most;
         *batch = time_steps(m, steps);
     }
@@ -77,7 +92,7 @@ static bool measure_steps(Measurement *m)
 {
     double batch, spent = 0.0, seconds = m->effort->seconds;
     uint32_t steps = warm_up(m, &batch);
-    uint32_t least = batch > seconds && !makes_lists(m) ? 1 : m->effort->repetitions;
+    uint32_t least = has_fixed_steps(m) ? STIRRED_REPETITIONS : batch > seconds ? 1 : m->effort->repetitions;
     uint32_t most = m->stirred ? STIRRED_REPETITIONS : MAX_REPETITIONS;
     while (batch >= 0.0 && m->count < most && (m->count < least || spent < seconds)) {
         batch = time_steps(m, steps);
