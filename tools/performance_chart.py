@@ -5,8 +5,8 @@
     tools/performance_chart.py --prototype TEXT        turn the lab prototype's table into CSV, to standard output
     tools/performance_chart.py --table NAME            the tables of docs/performance.md from NAME.csv, to standard output
 
-Every file NAME.csv of `weir bench --csv` becomes a line per dimension (its cases box_2d and box_3d on the GPU);
-prototype-*.csv and targets.csv stand beside them. Needs Debian's python3-matplotlib.
+Each file of WEIR becomes a line per dimension (its cases box_2d and box_3d on the GPU); peers.csv, prototype-h200.csv
+and targets.csv stand beside them. Needs Debian's python3-matplotlib.
 """
 
 import argparse
@@ -24,6 +24,8 @@ from validation_report import COLORS, svg_of  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent.parent / "docs/performance"
 CASES = {"box_2d": "2D, n about 20", "box_3d": "3D, n about 37"}
+# The files of `weir bench --csv` that the chart shows.
+WEIR = {"h200.csv": "Weir, H200", "h100-before-lists.csv": "Weir before lists, H100"}
 # Of the prototype's line: variant (p8: packed 2D positions), workgroup, kernel, dimension, N, n, candidates | ms, rate.
 LINE = re.compile(r"(\S+)\s+\d+ \w (\d)\s+(\d+)\s+([\d.]+)\s+([\d.]+) \|\s+([\d.]+)\s+([\d.]+) \|")
 
@@ -52,30 +54,31 @@ def draw_lines(axes, rows, label_of, **style):
         point = (float(row["particles"]), float(row["particle_steps_per_second"]) / 1e6)
         lines.setdefault(label_of(row), []).append(point)
     for label, points in lines.items():
-        # Measured twice, in two suites: the later one.
-        points = sorted(dict(points).items())
+        points.sort()
         axes.plot([x for x, _ in points], [y for _, y in points], label=label, **style)
-        style = dict(style, color=COLORS[(COLORS.index(style["color"]) + 1) % len(COLORS)])
 
 
 def draw_panel(axes, case):
-    weir = [path for path in sorted(FOLDER.glob("*.csv")) if not re.match("prototype|targets", path.name)]
-    for k, path in enumerate(weir):
-        rows = [row for row in rows_of(path) if row["scene"] == case and row["backend"] == "gpu"]
-        color = COLORS[k % len(COLORS)]
-        draw_lines(axes, rows, lambda _: f"Weir, {path.stem}", color=color, marker="o", markersize=3, linewidth=1.4)
-    for path in sorted(FOLDER.glob("prototype*.csv")):
-        rows = [row for row in rows_of(path) if row["scene"] == case]
-        draw_lines(axes, rows, lambda row: f"prototype {row['variant']}, {path.stem.split('-', 1)[1]}", color=COLORS[2],
-                   linestyle="--", linewidth=0.9)
-    targets = [row for row in rows_of(FOLDER / "targets.csv") if row["scene"] == case]
+    def of_case(name):
+        return [row for row in rows_of(FOLDER / name) if row["scene"] == case and row.get("backend", "gpu") == "gpu"]
+
+    for color, (name, label) in zip(COLORS, WEIR.items()):
+        draw_lines(axes, of_case(name), lambda _: label, color=color, marker="o", markersize=3, linewidth=1.6)
+    draw_lines(axes, of_case("peers.csv"), lambda row: f"{row['name']}, CUDA", color="#777777", marker="s", markersize=3,
+               linewidth=1)
+    for variant, style in (("X8.lb", "--"), ("X8.lb.r1.f3", ":")):
+        rows = [row for row in of_case("prototype-h200.csv") if row["variant"] == variant]
+        draw_lines(axes, rows, lambda row: f"prototype {row['variant']}", color=COLORS[2], linestyle=style, linewidth=1)
+    targets = of_case("targets.csv")
     for key, marker in (("at_least", "_"), ("goal", "*")):
         axes.plot([float(row["particles"]) for row in targets], [float(row[key]) for row in targets], marker,
-                  color="#222222", markersize=8, label=key.replace("_", " "))
+                  color="#222222", markersize=8, linestyle="none", label=key.replace("_", " "))
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_ylim(250, 25000)
     axes.set_xlabel("particles of fluid")
     axes.set_title(CASES[case], fontsize=9, loc="left")
+    axes.legend(fontsize=6, loc="lower right")
 
 
 def draw_chart():
@@ -83,7 +86,6 @@ def draw_chart():
     for axes, case in zip(panels, CASES):
         draw_panel(axes, case)
     panels[0].set_ylabel("M particle-steps/s, whole step")
-    panels[0].legend(fontsize=6, loc="lower right")
     (FOLDER / "speed.svg").write_text(svg_of(figure))
     return 0
 

@@ -23,7 +23,7 @@ fn near_among(place: Place, first: u32, left: u32, limit: f32, unseen: u32) -> N
 }
 
 // Written out, not a loop: Firefox counts every loop's turns lest it never ends, and the driver then cannot unroll it. Making
-// lists took six times as long by that (docs/performance.md).
+// lists took six times as long by that (docs/performance/tries.md).
 fn near_block(place: Place, first: u32, limit: f32, unseen: u32) -> Near {
     let found = coordinate_block(first); // beyond the run's end too, where it does not count
     let groups = found[0].w | found[1].w | found[2].w | found[3].w | found[4].w | found[5].w | found[6].w | found[7].w;

@@ -10,7 +10,7 @@
 
 #include "core/scene.h"
 
-// Cells per search radius along x: finer cells trim the runs (measured: docs/performance.md).
+// Cells per search radius along x: finer cells trim the runs (measured: docs/performance/tries.md).
 enum { WEIR_CELLS_PER_RADIUS = 4 };
 
 // Derives all constants from a scene and its resolved parameters; first_solid and solid_count are the caller's.

@@ -96,7 +96,7 @@ const WeirMethodInfo weir_mueller_method = {
 
 uint32_t weir_mueller_lanes(const WeirGpu *gpu, uint32_t particle_count)
 {
-    // Measured on an H100: docs/performance.md, tries.
+    // Measured on an H100: docs/performance/tries.md.
     double device = weir_parallelism_ratio(gpu);
     return particle_count <= 8192 * device ? 8 : particle_count <= 65536 * device ? 4 : 1;
 }

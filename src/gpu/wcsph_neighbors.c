@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// What suits which fluid was measured on an H100 (docs/performance.md, tries). Numbers of particles, pairs and threads are for its
+// What suits which fluid was measured on an H100 (docs/performance/tries.md). Numbers of particles, pairs and threads are for its
 // parallelism, and go with a device's own (parallelism.h).
 //
 // Shares of the support radius. A list reaches two allowances beyond the support. Where chances to sort are seldom it is to

@@ -12,7 +12,7 @@ extern const WeirWcsphPasses weir_wcsph_passes_avx2, weir_wcsph_passes_avx512, w
 extern const WeirWcsphMotion weir_wcsph_motion_avx2, weir_wcsph_motion_avx512, weir_wcsph_motion_avx512vl;
 
 // Eight lanes' particles lie closer together than sixteen's, and have fewer candidates that only some of them see: below so many
-// neighbours they are faster (docs/performance.md).
+// neighbours they are faster (docs/performance/tries.md).
 static double few_neighbors(uint32_t dimension)
 {
     return dimension == 3 ? 64.0 : 32.0;
