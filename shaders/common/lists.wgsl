@@ -23,7 +23,7 @@ fn part_index(i: u32, part: u32) -> u32 {
 
 // In 3D threads of pass forces take the slots of fluid first: side by side they have as much to do, where every third particle
 // is a wall's. (In 2D walls are few, and looking a slot up costs more: docs/performance/tries.md.) The slots in that order are
-// the end of cell_start, those of solids in the order of ids in 2D too; where that of the k-th particle stands:
+// the end of cell_start; in 2D those of solids alone, in the order of ids. Where that of the k-th particle stands:
 const FLUID_FIRST = HAS_SOLIDS && DIMENSION == 3u;
 
 fn fluid_first_at(k: u32) -> u32 {

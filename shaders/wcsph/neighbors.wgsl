@@ -13,6 +13,8 @@
 
 var<workgroup> fluid_slots: atomic<u32>; // wgpu-native does not zero it
 var<workgroup> fluid_before: atomic<u32>;
+var<workgroup> solid_slots: atomic<u32>;
+var<workgroup> solids_before: atomic<u32>;
 var<workgroup> mixed_warp: array<atomic<u32>, WORKGROUP_SIZE / WARP>;
 
 // Across the end of an axis runs do not come in the order of their slots, and entries count from the lowest one.
@@ -189,31 +191,34 @@ fn neighbors(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) w
     }
 }
 
-// Which thread of `forces` takes a particle is the same to its sums, so workgroups come in any order.
+// Which thread of `forces` or `walls` takes a particle is the same to its sums, so workgroups come in any order.
 fn put_fluid_first(i: u32, local: u32) {
     if local == 0u {
         atomicStore(&fluid_slots, 0u);
+        atomicStore(&solid_slots, 0u);
     }
     workgroupBarrier();
     let is_particle = i < constants.particle_count;
-    var k = 0u;
+    var is_solid_slot = false;
+    var rank = 0u;
     if is_particle {
-        k = sorted_id[i];
-    }
-    let is_first = is_particle && k < constants.first_solid;
-    if is_first {
-        k = atomicAdd(&fluid_slots, 1u);
+        is_solid_slot = sorted_id[i] >= constants.first_solid;
+        if is_solid_slot {
+            rank = atomicAdd(&solid_slots, 1u);
+        } else {
+            rank = atomicAdd(&fluid_slots, 1u);
+        }
     }
     workgroupBarrier();
     if local == 0u {
-        atomicStore(&fluid_before, atomicAdd(&cell_link[constants.cell_count], atomicLoad(&fluid_slots)));
+        let before = constants.cell_count;
+        atomicStore(&fluid_before, atomicAdd(&cell_link[before], atomicLoad(&fluid_slots)));
+        atomicStore(&solids_before, constants.first_solid + atomicAdd(&cell_link[before + 1u], atomicLoad(&solid_slots)));
     }
     workgroupBarrier();
-    if is_first {
-        k += atomicLoad(&fluid_before);
-    }
-    if is_first {
-        cell_start[fluid_first_at(k)] = i;
+    if is_particle {
+        rank += select(atomicLoad(&fluid_before), atomicLoad(&solids_before), is_solid_slot);
+        cell_start[fluid_first_at(rank)] = i;
     }
 }
 
@@ -222,7 +227,9 @@ fn note_slot(i: u32) {
     id[i] = sorted_id[i];
     if sorted_id[i] >= constants.first_solid {
         solid_particle[sorted_id[i] - constants.first_solid].slot = i;
-        cell_start[fluid_first_at(sorted_id[i])] = i;
+        if !FLUID_FIRST {
+            cell_start[fluid_first_at(sorted_id[i])] = i;
+        }
     }
 }
 

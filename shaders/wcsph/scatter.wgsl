@@ -26,7 +26,7 @@ fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
 }
 
 fn move_particle(i: u32) {
-    let next = constants.cell_count + 1u;
+    let next = constants.cell_count + 2u;
     let at = coordinate_at(i);
     let place = wrapped(place_of(at));
     let own = id[i];

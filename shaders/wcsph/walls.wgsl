@@ -90,7 +90,11 @@ fn walls(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     let works = particle < constants.particle_count - constants.first_solid && runs;
     var i = 0u;
     if works {
-        i = solid_particle[particle].slot;
+        if FLUID_FIRST && !MOVING_SOLIDS {
+            i = cell_start[fluid_first_at(constants.first_solid + particle)]; // in the order of slots: side by side their lists lie too
+        } else {
+            i = solid_particle[particle].slot;
+        }
     }
     leave_shares(works, i, thread % LANES, local);
     if works && thread % LANES == 0u {
