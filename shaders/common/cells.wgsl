@@ -23,6 +23,20 @@ fn grid_cell(place: Place) -> u32 {
     return (layer * constants.cell_rows + row) * constants.cell_columns + column;
 }
 
+// Where things lie in `cell_link` behind the heads of the cells' lists: how many slots of fluid and of solids pass neighbors has put
+// in order, and what follows each id in its cell's list.
+fn fluid_put_at() -> u32 {
+    return constants.cell_count;
+}
+
+fn solids_put_at() -> u32 {
+    return constants.cell_count + 1u;
+}
+
+fn link_at(own: u32) -> u32 {
+    return constants.cell_count + 2u + own;
+}
+
 // Rows (or layers) to visit along one axis: `below` in the lower image, then `inside`, then the rest above.
 struct Visits {
     below_first: u32,

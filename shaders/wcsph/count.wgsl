@@ -3,8 +3,7 @@
 //
 // in:  coordinate, id, control
 // out: cell_count (was 0), cell_link: the head of each cell's list (was 0: empty), then the next of each id; an
-//      entry is an id plus 1, 0 ends the list. Of an empty slot: its rank among them. Between heads and ids twice 0, for
-//      pass neighbors to count slots of fluid and of solids.
+//      entry is an id plus 1, 0 ends the list. Of an empty slot: its rank among them. For pass neighbors 0 slots put in order.
 @group(0) @binding(BINDING_id) var<storage, read> id: array<u32>;
 @group(0) @binding(BINDING_cell_count) var<storage, read_write> cell_count: array<atomic<u32>>;
 @group(0) @binding(BINDING_cell_link) var<storage, read_write> cell_link: array<atomic<u32>>;
@@ -20,8 +19,8 @@ fn count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workg
     }
     let stride = workgroups.x * workgroups.y * WORKGROUP_SIZE;
     if thread_index(workgroup, workgroups, local) == 0u {
-        atomicStore(&cell_link[constants.cell_count], 0u);
-        atomicStore(&cell_link[constants.cell_count + 1u], 0u);
+        atomicStore(&cell_link[fluid_put_at()], 0u);
+        atomicStore(&cell_link[solids_put_at()], 0u);
     }
     for (var first = workgroup_index(workgroup, workgroups) * WORKGROUP_SIZE; first < constants.particle_count; first += stride) {
         count_block(first + local, local);
@@ -45,7 +44,7 @@ fn count_block(i: u32, local: u32) {
         } else {
             let cell = grid_cell(wrapped(place_of(at)));
             atomicAdd(&cell_count[cell], 1u);
-            atomicStore(&cell_link[constants.cell_count + 2u + own], atomicExchange(&cell_link[cell], own + 1u));
+            atomicStore(&cell_link[link_at(own)], atomicExchange(&cell_link[cell], own + 1u));
         }
     }
     // One addition per workgroup: there may be very many empty slots.
@@ -55,6 +54,6 @@ fn count_block(i: u32, local: u32) {
     }
     workgroupBarrier();
     if is_empty {
-        atomicStore(&cell_link[constants.cell_count + 2u + own], atomicLoad(&empty_before) + rank);
+        atomicStore(&cell_link[link_at(own)], atomicLoad(&empty_before) + rank);
     }
 }

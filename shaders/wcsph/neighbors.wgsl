@@ -211,9 +211,8 @@ fn put_fluid_first(i: u32, local: u32) {
     }
     workgroupBarrier();
     if local == 0u {
-        let before = constants.cell_count;
-        atomicStore(&fluid_before, atomicAdd(&cell_link[before], atomicLoad(&fluid_slots)));
-        atomicStore(&solids_before, constants.first_solid + atomicAdd(&cell_link[before + 1u], atomicLoad(&solid_slots)));
+        atomicStore(&fluid_before, atomicAdd(&cell_link[fluid_put_at()], atomicLoad(&fluid_slots)));
+        atomicStore(&solids_before, constants.first_solid + atomicAdd(&cell_link[solids_put_at()], atomicLoad(&solid_slots)));
     }
     workgroupBarrier();
     if is_particle {

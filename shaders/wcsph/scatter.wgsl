@@ -26,18 +26,17 @@ fn scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) wor
 }
 
 fn move_particle(i: u32) {
-    let next = constants.cell_count + 2u;
     let at = coordinate_at(i);
     let place = wrapped(place_of(at));
     let own = id[i];
     var slot: u32;
     if u32(at.w) == GROUP_EMPTY {
-        slot = cell_start[constants.cell_count] + cell_link[next + own];
+        slot = cell_start[constants.cell_count] + cell_link[link_at(own)];
     } else {
         let cell = grid_cell(place);
         slot = cell_start[cell];
         // The rank in the cell: how many of its ids are lower.
-        for (var link = cell_link[cell]; link != 0u; link = cell_link[next + link - 1u]) {
+        for (var link = cell_link[cell]; link != 0u; link = cell_link[link_at(link - 1u)]) {
             slot += select(0u, 1u, link < own + 1u);
         }
     }

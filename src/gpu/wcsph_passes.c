@@ -223,7 +223,7 @@ void weir_gpu_wcsph_sizes(const WeirConstants *constants, const WeirWorld *world
     sizes[WEIR_WCSPH_cell_count].bytes = 4 * cells;
     uint64_t ordered = traits->dimension == 3 && traits->solid_count > 0 ? count : solid_particles;
     sizes[WEIR_WCSPH_cell_start].bytes = 4 * (cells + ordered);  // common/lists.wgsl
-    sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + 1 + count); // count.wgsl
+    sizes[WEIR_WCSPH_cell_link].bytes = 4 * (cells + 1 + count); // common/cells.wgsl
     sizes[WEIR_WCSPH_block_sum].bytes = 4 * (cells / WEIR_SCAN_BLOCK);
     sizes[WEIR_WCSPH_kicked] = (WeirBufferSize){16 * count, traits->free_solids ? 2 : 1, 0};
     sizes[WEIR_WCSPH_solid_state].bytes = 3 * solids * sizeof(WeirSolidState);

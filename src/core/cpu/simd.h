@@ -1,6 +1,6 @@
-// Vectors of floats as wide as the target has them, on compiler vector types (gcc, clang). Only operations
-// that IEEE 754 rounds exactly: a lane gives the same bits at any width, so the width is free to differ
-// between targets.
+// Vectors of floats as wide as the target has them, with AVX-512 also half as wide (dispatch.c), on compiler vector types
+// (gcc, clang). Only operations that IEEE 754 rounds exactly: a lane gives the same bits at any width, so the width is free
+// to differ between targets.
 #pragma once
 
 #include <stdbool.h>
